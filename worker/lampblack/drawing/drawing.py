@@ -1,0 +1,49 @@
+"""One frame of drawn art, taken apart into what the later stages need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .palette import Palette
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A drawing in canvas pixels (row 0 at the top), H x W.
+
+    Laying ``ink_colour`` over ``albedo`` with coverage ``ink``, and that over the background
+    with ``coverage``, gives ``pixels`` back to within rounding wherever the figure is drawn:
+    so a figure lit by white light of unit irradiance *is* the drawing.
+
+    Attributes:
+        pixels: (H, W, 4) uint8, sRGB, straight alpha, as read.
+        mask: (H, W) bool, True inside the figure (its line included).
+        coverage: (H, W) float32 in 0..1, how much of the pixel the figure covers
+            (anti-aliased edge); 0 far outside the mask. Transparent art: its alpha.
+        lines: (H, W) float32 in 0..1, the line drawing that predicts the normals: ink, or
+            colour borders where no ink was drawn; 0 outside the mask.
+        ink: (H, W) float32 in 0..1, coverage of the artist's line over the fill.
+        ink_colour: (H, W, 3) float32 sRGB in 0..1, colour of the line where ``ink`` > 0.
+        albedo: (H, W, 3) float32 sRGB in 0..1, the fill, continued beneath the line and a
+            few pixels past the mask.
+        labels: (H, W) int16 index into ``palette.swatches`` of the fill, -1 outside.
+        palette: the flat colours of the fill.
+    """
+
+    pixels: NDArray[np.uint8]
+    mask: NDArray[np.bool_]
+    coverage: NDArray[np.float32]
+    lines: NDArray[np.float32]
+    ink: NDArray[np.float32]
+    ink_colour: NDArray[np.float32]
+    albedo: NDArray[np.float32]
+    labels: NDArray[np.int16]
+    palette: Palette
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) in pixels."""
+        return self.pixels.shape[1], self.pixels.shape[0]

@@ -1,0 +1,38 @@
+"""Errors for people: what happened, what to do, and details to copy."""
+
+from __future__ import annotations
+
+
+class LampblackError(Exception):
+    """A fault of the input or the machine, told to the artist without a traceback.
+
+    Args:
+        what: one sentence: what happened.
+        remedy: one sentence: what to do about it.
+        details: text worth copying into a report (a path, a library's own message).
+    """
+
+    def __init__(self, what: str, remedy: str = "", details: str = "") -> None:
+        super().__init__(what)
+        self.what = what
+        self.remedy = remedy
+        self.details = details
+
+    def __str__(self) -> str:
+        return " ".join(part for part in (self.what, self.remedy) if part)
+
+
+class DrawingError(LampblackError):
+    """The picture cannot be read, or holds nothing to light."""
+
+
+class SceneError(LampblackError):
+    """The scene is malformed, out of range or of an unknown version."""
+
+
+class RenderError(LampblackError):
+    """The render child failed or went away."""
+
+
+class LampblackWarning(UserWarning):
+    """Something the artist should know, though the frame was still made."""

@@ -1,0 +1,37 @@
+"""What the render child gives back: light, sorted by where it came from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class LightPasses:
+    """The contribution of one white light of power 1, or of white ambient of strength 1.
+
+    Scene-linear, row 0 at the top, (h, w, 3) float32 at the render's own resolution.
+
+    Attributes:
+        diffuse: irradiance over pi with the albedo divided out: a white wall fully lit is 1.
+        glossy: reflected radiance of the glossy lobe with its own colour divided out.
+        floor: ratio of the floor's light with the figure to its light without it: below 1 in
+            shadow, above 1 (per channel) where colour bleeds; None without a floor.
+        floor_light: the floor's light without the figure, which weighs the ratios of several
+            lights; None without a floor.
+    """
+
+    diffuse: NDArray[np.float32]
+    glossy: NDArray[np.float32]
+    floor: NDArray[np.float32] | None = None
+    floor_light: NDArray[np.float32] | None = None
+
+
+@dataclass(frozen=True)
+class Passes:
+    """One frame's light: ``lights[i]`` belongs to ``scene.lights[i]``."""
+
+    lights: tuple[LightPasses, ...]
+    ambient: LightPasses

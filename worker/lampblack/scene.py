@@ -1,0 +1,216 @@
+"""The scene: everything that says how drawings are lit, as one frozen tree.
+
+Canvas frame, in the drawing's own pixels: x right, y down, origin at the drawing's top left
+corner, z towards the viewer, the paper at z = 0. Colours are ``#rrggbb`` in sRGB. The tree
+goes to JSON and back; fields this version does not know are kept and written out again.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal, TypeVar, get_type_hints
+
+import msgspec
+from msgspec import Meta
+
+from .errors import SceneError
+
+VERSION = 1
+MAX_LIGHTS = 4
+MAX_JSON_BYTES = 1 << 20
+
+Colour = Annotated[str, Meta(pattern="^#[0-9a-f]{6}$", description="sRGB, lower case #rrggbb")]
+Pixels = Annotated[float, Meta(ge=-1e5, le=1e5, description="canvas pixels")]
+Unit = Annotated[float, Meta(ge=0, le=1)]
+Strength = Annotated[float, Meta(ge=0, le=100)]
+Extra = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class AreaLight:
+    """A disk of light facing the paper point beneath it.
+
+    ``power`` 1 lights a white surface that faces it from the default height (half the
+    canvas's long side) to exactly the drawn colour; light falls off with the square of the
+    distance. ``z`` below 0 stands behind the paper.
+    """
+
+    x: Pixels
+    y: Pixels
+    z: Pixels
+    size: Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")] = 200.0
+    colour: Colour = "#ffffff"
+    power: Strength = 1.0
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Ambient:
+    """Light from everywhere; strength 1 alone shows an open surface in its drawn colour."""
+
+    colour: Colour = "#ffffff"
+    strength: Strength = 0.35
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Material:
+    """What a flat colour is made of: diffuse, glossy, both, or neither (left as drawn).
+
+    ``gloss`` is the amount of the glossy lobe, ``roughness`` its width (the paper's glossy
+    exponent, the other way round: 0 is a mirror, 1 is satin).
+    """
+
+    diffuse: bool = True
+    glossy: bool = False
+    gloss: Unit = 0.5
+    roughness: Annotated[float, Meta(ge=0.02, le=1)] = 0.3
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Floor:
+    """A shadow-catching plane hinged at the canvas line ``y``, z = 0.
+
+    A horizontal floor is edge-on to the orthographic view, so the floor is pitched towards
+    the viewer: ``pitch`` degrees, 0 edge-on, 90 a wall facing the viewer.
+    """
+
+    y: Pixels
+    pitch: Annotated[float, Meta(ge=5, le=85, description="degrees")] = 25.0
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Canvas:
+    """Size of the drawings this scene was made for, in pixels."""
+
+    width: Annotated[int, Meta(ge=1, le=65536)]
+    height: Annotated[int, Meta(ge=1, le=65536)]
+    extra: Extra = field(default_factory=dict)
+
+    @property
+    def default_height(self) -> float:
+        """Height of a light above the paper at which power 1 is calibrated, in pixels."""
+        return max(self.width, self.height) / 2
+
+
+@dataclass(frozen=True)
+class Scene:
+    """All that the artist sets. Materials are keyed by flat colour, so they survive any
+    reordering of the palette; colours without one wear ``default_material``."""
+
+    canvas: Canvas
+    lights: Annotated[tuple[AreaLight, ...], Meta(max_length=MAX_LIGHTS)] = ()
+    ambient: Ambient = field(default_factory=Ambient)
+    materials: Annotated[dict[Colour, Material], Meta(max_length=4096)] = field(
+        default_factory=dict
+    )
+    default_material: Material = field(default_factory=Material)
+    floor: Floor | None = None
+    relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
+    quality: Literal["low", "medium", "final"] = "low"
+    version: int = VERSION
+    extra: Extra = field(default_factory=dict)
+
+    def material(self, colour: str) -> Material:
+        """The material that the flat colour ``#rrggbb`` wears."""
+        return self.materials.get(colour, self.default_material)
+
+
+def default_scene(width: int, height: int) -> Scene:
+    """One light above the upper left of a ``width`` x ``height`` canvas, no floor."""
+    canvas = Canvas(width, height)
+    light = AreaLight(
+        x=0.25 * width, y=0.2 * height, z=canvas.default_height, size=0.2 * max(width, height)
+    )
+    return Scene(canvas=canvas, lights=(light,))
+
+
+def encode_scene(scene: Scene) -> bytes:
+    """The scene as indented JSON, unknown fields included."""
+    return msgspec.json.format(msgspec.json.encode(_to_builtins(scene)), indent=2) + b"\n"
+
+
+def decode_scene(data: bytes) -> Scene:
+    """Read a scene from JSON.
+
+    Raises:
+        SceneError: not JSON, too large, of another version, or a value out of range.
+    """
+    if len(data) > MAX_JSON_BYTES:
+        raise SceneError(
+            f"The scene file is {len(data)} bytes long; {MAX_JSON_BYTES} is the most.",
+            "Check that this is a scene file.",
+        )
+    try:
+        tree = msgspec.json.decode(data)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise SceneError(
+            "The scene file is not valid JSON.", "Write a fresh one: lampblack scene.", str(error)
+        ) from error
+    if not isinstance(tree, dict):
+        raise SceneError("The scene file does not hold a JSON object.")
+    version = tree.get("version", VERSION)
+    if version != VERSION:
+        raise SceneError(
+            f"The scene has version {version!r}; this Lampblack reads version {VERSION}.",
+            "Update Lampblack, or write a fresh scene: lampblack scene.",
+        )
+    try:
+        return _from_builtins(tree, Scene)
+    except (msgspec.ValidationError, RecursionError) as error:
+        raise SceneError(
+            "The scene has a field that cannot be used.", "Correct it and try again.", str(error)
+        ) from error
+
+
+def scene_schema() -> dict[str, Any]:
+    """JSON Schema of the scene, as written to ``protocol/scene.schema.json``."""
+    schema = msgspec.json.schema(Scene)
+    for definition in schema["$defs"].values():
+        definition["properties"].pop("extra", None)
+    return schema
+
+
+Node = TypeVar("Node")
+
+
+def _from_builtins(tree: Mapping[str, Any], kind: type[Node]) -> Node:
+    """Build ``kind`` from decoded JSON; fields it does not declare go to its ``extra``."""
+    return msgspec.convert(_gather_extra(tree, kind), kind)
+
+
+def _gather_extra(value: Any, hint: Any) -> Any:
+    """Move undeclared fields of every object into its ``extra`` field, recursively."""
+    if isinstance(hint, type) and dataclasses.is_dataclass(hint) and isinstance(value, dict):
+        hints = get_type_hints(hint)
+        known = {
+            name: _gather_extra(value[name], hints[name])
+            for name in hints
+            if name != "extra" and name in value
+        }
+        known["extra"] = {name: v for name, v in value.items() if name not in known}
+        return known
+    arguments = [a for a in getattr(hint, "__args__", ()) if a is not Ellipsis]
+    if isinstance(value, list) and arguments:
+        return [_gather_extra(item, arguments[0]) for item in value]
+    if isinstance(value, dict) and len(arguments) == 2 and arguments[0] is not type(None):
+        if dataclasses.is_dataclass(arguments[0]):  # Optional[dataclass]
+            return _gather_extra(value, arguments[0])
+        return {key: _gather_extra(item, arguments[1]) for key, item in value.items()}
+    return value
+
+
+def _to_builtins(value: Any) -> Any:
+    """Plain containers for JSON, with every ``extra`` spread back into its object."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        fields = {f.name: _to_builtins(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        return {**fields.pop("extra"), **fields}
+    if isinstance(value, tuple | list):
+        return [_to_builtins(item) for item in value]
+    if isinstance(value, dict):
+        return {key: _to_builtins(item) for key, item in value.items()}
+    return value
