@@ -1,0 +1,97 @@
+"""Weights that can be exchanged: a safetensors file and the JSON card that describes it."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import asdict, dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+import torch
+from msgspec import Meta
+from safetensors import SafetensorError
+from safetensors.torch import load_file, save_file
+from torch import nn
+
+from ..errors import LampblackError
+
+MAX_WEIGHT_BYTES = 256 << 20
+
+
+@dataclass(frozen=True)
+class NetworkCard:
+    """What a weight file is and how to feed it.
+
+    Attributes:
+        architecture: a name in ``network.ARCHITECTURES``.
+        figure_px: (smallest, largest) long side of the figures it was trained on, pixels;
+            drawings outside are resized into that range.
+        training: how it came to be, for people.
+        measured: figures it reached, for people.
+    """
+
+    architecture: str = "dilated-unet"
+    figure_px: tuple[
+        Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]
+    ] = (256, 640)
+    training: dict[str, Any] | None = None
+    measured: dict[str, Any] | None = None
+
+
+def shipped_weights() -> Path:
+    """The weights that come with Lampblack."""
+    return Path(str(files("lampblack.normals").joinpath("weights", "dilated-unet.safetensors")))
+
+
+def save_network(path: Path, network: nn.Module, card: NetworkCard) -> None:
+    """Write ``path`` (fp16 safetensors) and, beside it, its ``.json`` card; each atomically."""
+    weights = {name: t.detach().half().contiguous() for name, t in network.state_dict().items()}
+    path.parent.mkdir(parents=True, exist_ok=True)
+    replace_safetensors(path, weights)
+    text = msgspec.json.format(msgspec.json.encode(asdict(card)), indent=2) + b"\n"
+    partial = path.with_suffix(".json.partial")
+    partial.write_bytes(text)
+    partial.replace(path.with_suffix(".json"))
+
+
+def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
+    """Read weights and card, the shipped ones by default; float32, in evaluation mode.
+
+    Raises:
+        LampblackError: a file is missing, is not what it says, or does not fit the network.
+    """
+    from .network import ARCHITECTURES, build_network
+
+    path = path or shipped_weights()
+    try:
+        if path.stat().st_size > MAX_WEIGHT_BYTES:
+            raise LampblackError(f"{path} is too large to be weights of a normal network.")
+        card = msgspec.json.decode(path.with_suffix(".json").read_bytes(), type=NetworkCard)
+        if card.architecture not in ARCHITECTURES:
+            raise LampblackError(
+                f"{path} is for a network named {card.architecture!r}.",
+                f"This Lampblack knows: {', '.join(ARCHITECTURES)}.",
+            )
+        network = build_network(card)
+        tensors = {name: tensor.float() for name, tensor in load_file(path).items()}
+        network.load_state_dict(tensors)
+    except (OSError, SafetensorError, msgspec.DecodeError, RuntimeError) as error:
+        raise LampblackError(
+            f"The weights {path} cannot be used.", "Reinstall Lampblack.", str(error)
+        ) from error
+    return network.eval(), card
+
+
+def replace_safetensors(path: Path, tensors: dict[str, torch.Tensor]) -> None:
+    """Write ``tensors`` under a temporary name, then rename it to ``path``."""
+    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".partial")
+    os.close(handle)
+    try:
+        save_file(tensors, name)
+        Path(name).chmod(0o644)
+        Path(name).replace(path)
+    finally:
+        Path(name).unlink(missing_ok=True)

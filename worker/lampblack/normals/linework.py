@@ -1,0 +1,119 @@
+"""An artist's line drawn from a G-buffer: silhouettes, occlusions and creases in ink.
+
+Width, its swell, threshold, wobble and gaps vary from drawing to drawing, so that the network
+meets more hands than one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from .gbuffer import GBuffer
+
+
+@dataclass(frozen=True)
+class Hand:
+    """How a drawing is inked.
+
+    Attributes:
+        width: of the line, pixels.
+        swell: how much the width changes along the line, 0 to 1.
+        crease: angle in degrees between neighbouring normals that is drawn as a line.
+        step: depth jump in pixels that is drawn as an occlusion.
+        wobble: amplitude of the hand's tremor, pixels.
+        gaps: share of the line left open, 0 to 1.
+        darkness: of the ink, 0 to 1.
+        black_fills: share of closed regions filled with ink.
+    """
+
+    width: float = 2.5
+    swell: float = 0.0
+    crease: float = 35.0
+    step: float = 6.0
+    wobble: float = 0.0
+    gaps: float = 0.0
+    darkness: float = 1.0
+    black_fills: float = 0.0
+
+    @staticmethod
+    def random(rng: np.random.Generator, figure_px: int) -> Hand:
+        """One hand of many, for a figure of this size."""
+        widest = max(0.022 * figure_px, 2.5)
+        return Hand(
+            width=float(np.exp(rng.uniform(np.log(0.9), np.log(widest)))),
+            swell=float(rng.uniform(0, 0.6)),
+            crease=float(rng.uniform(25, 60)),
+            step=figure_px * float(rng.uniform(0.008, 0.03)),
+            wobble=float(rng.choice([0.0, rng.uniform(0.3, 1.5)])),
+            gaps=float(rng.choice([0.0, rng.uniform(0, 0.2)])),
+            darkness=float(rng.uniform(0.6, 1.0)),
+            black_fills=float(rng.choice([0.0, 0.0, rng.uniform(0, 0.15)])),
+        )
+
+
+def draw_lines(view: GBuffer, hand: Hand, rng: np.random.Generator) -> NDArray[np.float32]:
+    """Ink ``view``: (H, W) float32 in 0..1, 1 is full ink, 0 outside the mask."""
+    mask = view.mask
+    edges = _occlusions(view, hand.step) | _creases(view, hand.crease)
+    edges |= mask & ~ndimage.binary_erosion(mask)
+    edges &= mask
+    if not edges.any():
+        return np.zeros(mask.shape, np.float32)
+    distance = ndimage.distance_transform_edt(~edges).astype(np.float32)
+    if hand.wobble > 0:
+        offsets = [hand.wobble * _noise(mask.shape, 24, rng) for _ in range(2)]
+        rows, columns = np.mgrid[0 : mask.shape[0], 0 : mask.shape[1]].astype(np.float32)
+        distance = ndimage.map_coordinates(
+            distance, [rows + offsets[0], columns + offsets[1]], order=1, mode="nearest"
+        )
+    width = hand.width * (1 + hand.swell * _noise(mask.shape, 40, rng))
+    ink = np.clip(width / 2 - distance + 0.5, 0, 1) * np.clip(width, 0, 1)
+    if hand.gaps > 0:
+        ink *= _noise(mask.shape, 20, rng) > np.quantile(_noise(mask.shape, 20, rng), hand.gaps)
+    ink *= hand.darkness
+    if hand.black_fills > 0:
+        regions, count = ndimage.label(mask & (distance > width / 2))
+        sizes = np.bincount(regions.reshape(-1), minlength=count + 1)
+        filled = rng.random(count + 1) < hand.black_fills
+        filled[0] = False
+        filled[sizes > 0.15 * mask.sum()] = False
+        # A filled black keeps only its border as line, as the drawing stage sees it.
+        solid = ndimage.binary_dilation(filled[regions], iterations=2)
+        ink = np.where(solid, np.clip(1.5 - distance, 0, 1) * hand.darkness, ink)
+    result: NDArray[np.float32] = (ink * mask).astype(np.float32)
+    return result
+
+
+def _occlusions(view: GBuffer, step: float) -> NDArray[np.bool_]:
+    """The nearer side of every depth jump; second differences, so that slopes draw nothing."""
+    depth = np.where(view.mask, view.depth, 0)
+    found = np.zeros(view.mask.shape, bool)
+    for axis in (0, 1):
+        before, after = np.roll(depth, 1, axis), np.roll(depth, -1, axis)
+        found |= (2 * depth - before - after > step) & view.mask
+    return found
+
+
+def _creases(view: GBuffer, degrees: float) -> NDArray[np.bool_]:
+    """Pixels whose normal turns by more than ``degrees`` towards the right or down."""
+    found = np.zeros(view.mask.shape, bool)
+    limit = np.cos(np.radians(degrees))
+    for axis in (0, 1):
+        turned = np.roll(view.normals, -1, axis)
+        both = view.mask & np.roll(view.mask, -1, axis)
+        found |= both & (np.einsum("hwc,hwc->hw", view.normals, turned) < limit)
+    return found
+
+
+def _noise(
+    shape: tuple[int, int], period: int, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """Smooth noise in about -1..1 whose bumps are ``period`` pixels wide."""
+    coarse = rng.uniform(-1, 1, (shape[0] // period + 3, shape[1] // period + 3))
+    zoomed = ndimage.zoom(coarse.astype(np.float32), period, order=1)
+    result: NDArray[np.float32] = zoomed[: shape[0], : shape[1]]
+    return result
