@@ -1,0 +1,99 @@
+"""Light laid over the drawing: the same pure function for previews and for finals."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..drawing.drawing import Drawing
+from ..render.passes import LightPasses, Passes
+from ..scene import Scene
+from .colour import hex_linear, linear, srgb
+from .resample import enlarge
+from .shadow import shade_background
+
+KNEE = 0.8
+
+
+def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint8]:
+    """The lit drawing, (H, W, 4) uint8 sRGB with straight alpha.
+
+    ``passes`` may be smaller than the drawing; they cover the whole of it. The figure's fill
+    is lit in scene-linear light, its ink laid over that, and the figure over the background,
+    both in sRGB as the drawing program does it. Light of unit irradiance gives the drawing
+    back to within 1/255. What is brighter than white clips with its hue kept.
+    """
+    weights = [hex_linear(light.colour) * np.float32(light.power) for light in scene.lights]
+    weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
+    sources = [
+        (weight, source)
+        for weight, source in zip(weights, (*passes.lights, passes.ambient), strict=True)
+        if weight.any()
+    ]
+    lit = _lay_ink(drawing, srgb(_lit_fill(drawing, scene, sources)))
+    drawn = _lay_ink(drawing, drawing.albedo)
+
+    pixels = drawing.pixels.astype(np.float32) / 255
+    coverage = drawing.coverage[..., None]
+    # What lies behind the figure: pixels = drawn over background, solved for the background.
+    behind = pixels[..., 3:] - coverage
+    paint = pixels[..., 3:] * pixels[..., :3] - coverage * drawn
+    if scene.floor is not None:
+        paint, behind = shade_background(paint, behind, coverage, sources)
+    alpha = coverage + behind
+    colour = (coverage * lit + paint) / np.maximum(alpha, 1e-6)
+    colour = np.where(alpha > 0, colour, pixels[..., :3])
+    rgba = np.concatenate([colour, alpha], axis=2)
+    rounded: NDArray[np.uint8] = np.rint(np.clip(rgba, 0, 1) * 255).astype(np.uint8)
+    return rounded
+
+
+def _lit_fill(
+    drawing: Drawing, scene: Scene, sources: list[tuple[NDArray[np.float32], LightPasses]]
+) -> NDArray[np.float32]:
+    """The fill under the lights, scene-linear (H, W, 3), at most 1."""
+    albedo = linear(drawing.albedo)
+    materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
+    materials.append(scene.default_material)  # label -1: past the edge
+    diffuse = np.array([m.diffuse for m in materials])[drawing.labels][..., None]
+    glossy = np.array([m.glossy for m in materials])[drawing.labels][..., None]
+    gloss = np.array([m.gloss for m in materials], np.float32)[drawing.labels][..., None]
+
+    light = _gather(sources, "diffuse", drawing.size) if diffuse.any() else np.float32(0)
+    lit = np.where(diffuse, albedo * light, 0)
+    if glossy.any():
+        shine = gloss * _gather(sources, "glossy", drawing.size)
+        lit = lit + np.where(glossy, np.where(diffuse, shine, albedo * shine), 0)
+    lit = _roll_off(lit, albedo)
+    return np.where(diffuse | glossy, lit, albedo).astype(np.float32)
+
+
+def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Bring light brighter than white below white, hue kept, scene-linear (H, W, 3).
+
+    The brightest channel is let be up to ``KNEE``, and up to the drawn colour's own, so that
+    unit irradiance stays exact; from there it bends towards 1, since clipping alone leaves a
+    flat patch with a hard edge.
+    """
+    peak = lit.max(axis=2, keepdims=True)
+    knee = np.clip(drawn.max(axis=2, keepdims=True), KNEE, 1)
+    room = np.maximum(1 - knee, 1e-4)
+    over = np.maximum(peak - knee, 0)
+    bent = np.minimum(peak, knee) + room * -np.expm1(-over / room)
+    return np.asarray(lit * np.where(over > 0, bent / np.maximum(peak, KNEE), 1), np.float32)
+
+
+def _gather(
+    sources: list[tuple[NDArray[np.float32], LightPasses]], kind: str, size: tuple[int, int]
+) -> NDArray[np.float32]:
+    """Sum one kind of pass over the sources, (H, W, 3)."""
+    total = np.zeros((size[1], size[0], 3), np.float32)
+    for weight, source in sources:
+        total += weight * enlarge(getattr(source, kind), size)
+    return total
+
+
+def _lay_ink(drawing: Drawing, fill: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The artist's line over the fill, sRGB (H, W, 3)."""
+    ink = drawing.ink[..., None]
+    return (fill + ink * (drawing.ink_colour - fill)).astype(np.float32)

@@ -1,0 +1,60 @@
+"""The figure's shadow on the floor, laid over whatever lies behind the figure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..render.passes import LightPasses
+from .colour import linear, srgb
+from .resample import enlarge
+
+
+def shade_background(
+    paint: NDArray[np.float32],
+    behind: NDArray[np.float32],
+    coverage: NDArray[np.float32],
+    sources: Sequence[tuple[NDArray[np.float32], LightPasses]],
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Shade what shows behind the figure.
+
+    Paint is multiplied by the floor's light; where there is no paint the shadow becomes a
+    translucent layer that looks the same once laid over white.
+
+    Args:
+        paint: (H, W, 3) sRGB of the background times ``behind``.
+        behind: (H, W, 1) how much of the pixel is background paint.
+        coverage: (H, W, 1) how much is figure.
+        sources: (3,) weight and passes of each light.
+
+    Returns:
+        ``paint`` and ``behind`` with the shadow in them.
+    """
+    ratio = floor_ratio(sources, (paint.shape[1], paint.shape[0]))
+    colour = np.clip(paint / np.maximum(behind, 1e-3), 0, 1)
+    shaded = behind * srgb(np.minimum(linear(colour) * ratio, 1))
+    over_white = srgb(np.minimum(ratio, 1))
+    shadow = 1 - over_white.min(axis=2, keepdims=True)
+    bare = np.clip(1 - coverage - behind, 0, 1)
+    # Over white, (1 - shadow) + tint = over_white.
+    tint = over_white - (1 - shadow)
+    return shaded + bare * tint, behind + bare * shadow
+
+
+def floor_ratio(
+    sources: Sequence[tuple[NDArray[np.float32], LightPasses]], size: tuple[int, int]
+) -> NDArray[np.float32]:
+    """The floor's light with the figure over that without it, all sources together, (H, W, 3)
+    for ``size`` = (W, H); 1 where no light falls."""
+    floors = [
+        (weight * source.floor_light, source.floor)
+        for weight, source in sources
+        if source.floor is not None and source.floor_light is not None
+    ]
+    if not floors:
+        return np.ones((size[1], size[0], 3), np.float32)
+    free = sum(light for light, _ in floors)
+    cast = sum(light * ratio for light, ratio in floors)
+    return enlarge(np.divide(cast, free, out=np.ones_like(cast), where=free > 1e-6), size)

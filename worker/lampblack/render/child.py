@@ -1,0 +1,67 @@
+"""The render child: ``python -m lampblack.render.child``, the one place where Blender runs.
+
+Reads requests on stdin and answers on what was stdout, until either closes.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import sys
+import threading
+import traceback
+from io import FileIO
+from typing import NoReturn
+
+from .wire import Array, Failed, Load, Message, Trace, Traced, WireError, receive, send
+
+Received = tuple[Message, list[Array]]
+
+
+def main() -> NoReturn:
+    """Serve requests until the parent goes away."""
+    answers = _private_stdout()
+    inbox: queue.SimpleQueue[Received] = queue.SimpleQueue()
+    threading.Thread(target=_read_requests, args=(inbox,), daemon=True).start()
+
+    from .denoise import Denoiser
+    from .stage import Stage, threads
+    from .trace import trace
+
+    stage, denoiser = Stage(), Denoiser(threads())
+    while True:
+        message, arrays = inbox.get()
+        try:
+            if isinstance(message, Load):
+                stage.set_surface(*arrays)  # type: ignore[arg-type]
+            elif isinstance(message, Trace):
+                light = trace(stage, denoiser, message)
+                found = (light.diffuse, light.glossy, light.floor, light.floor_light)
+                send(answers, Traced(), [array for array in found if array is not None])
+        except OSError:
+            os._exit(0)
+        except Exception as error:
+            send(answers, Failed(str(error), traceback.format_exc()))
+
+
+def _private_stdout() -> FileIO:
+    """Keep stdout for the answers alone: Blender prints to descriptor 1 as it pleases."""
+    answers = FileIO(os.dup(1), "wb")
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, 1)
+    os.close(silence)
+    return answers
+
+
+def _read_requests(inbox: queue.SimpleQueue[Received]) -> None:
+    """Queue requests; when the parent is gone, end at once, even amid a render."""
+    requests = FileIO(sys.stdin.fileno(), "rb", closefd=False)
+    try:
+        while True:
+            inbox.put(receive(requests))
+    except (WireError, OSError):
+        os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,163 @@
+"""The parent's side of the render child: starts it, feeds it, survives it."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from io import FileIO
+from types import TracebackType
+from typing import IO, Literal, Self, cast
+
+import numpy as np
+
+from ..errors import RenderError
+from ..scene import AreaLight
+from .passes import LightPasses, Passes
+from .request import RenderRequest, Surface
+from .wire import Array, Failed, Load, Trace, Traced, WireError, receive, send
+
+# The child gets only these: a drawing program's own library and Python paths would break it.
+KEPT_VARIABLES = ("PATH", "HOME", "LANG", "TMPDIR", "TEMP", "TMP", "SYSTEMROOT")
+
+
+class RenderChild:
+    """Cycles in a process of its own, so that it can be lost without losing the parent.
+
+    Use as a context manager. The child starts at once and loads while the parent works on;
+    if it dies, the render at hand raises and the next one starts a fresh child. It is shut
+    off from the terminal's Ctrl-C and ends with the parent, however that ends.
+
+    Example:
+        >>> with RenderChild() as child:
+        ...     passes = child.render(frame_request(drawing, relief, scene))
+    """
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        self._log: IO[bytes] | None = None
+        self._loaded = b""
+
+    def __enter__(self) -> Self:
+        self._start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def render(self, request: RenderRequest) -> Passes:
+        """Trace every light of ``request``, and the ambient light if it asks for that.
+
+        The surface is only sent when it differs from the last one. Ambient that was not asked
+        for comes back as a 1 x 1 pass of zeros.
+
+        Raises:
+            RenderError: the child failed or died; rendering again starts a new one.
+        """
+        try:
+            self._start()
+            self._load(request.surface)
+            lights = tuple(self._trace(request, light) for light in request.lights)
+            dark = np.zeros((1, 1, 3), np.float32)
+            ambient = self._trace(request, None) if request.ambient else LightPasses(dark, dark)
+            return Passes(lights, ambient)
+        except (WireError, OSError) as error:
+            raise self._lost(error) from error
+        except RenderError:
+            raise
+        except BaseException:
+            # Half a conversation cannot be resumed: an interrupted child is a dead child.
+            self._end()
+            raise
+
+    def close(self) -> None:
+        """End the child; safe to call twice."""
+        self._end()
+
+    @property
+    def pid(self) -> int | None:
+        """Process id of the child, None while there is none."""
+        return self._process.pid if self._process else None
+
+    def _start(self) -> None:
+        if self._process and self._process.poll() is None:
+            return
+        self._end()
+        self._log = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the child
+        self._process = subprocess.Popen(
+            [sys.executable, "-I", "-m", "lampblack.render.child"],
+            bufsize=0,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._log,
+            env={name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
+            start_new_session=True,
+        )
+
+    def _end(self) -> None:
+        process, self._process, self._loaded = self._process, None, b""
+        if process:
+            process.kill()
+            process.wait()
+            for pipe in (process.stdin, process.stdout):
+                with contextlib.suppress(OSError):
+                    pipe and pipe.close()
+        if self._log:
+            self._log.close()
+            self._log = None
+
+    def _load(self, surface: Surface) -> None:
+        arrays: list[Array] = [
+            surface.relief.vertices,
+            surface.relief.faces,
+            surface.albedo,
+            surface.gloss,
+            surface.roughness,
+        ]
+        digest = hashlib.blake2b()
+        for array in arrays:
+            digest.update(np.ascontiguousarray(array).data)
+        if digest.digest() != self._loaded:
+            send(self._pipe("stdin"), Load(), arrays)
+            self._loaded = digest.digest()
+
+    def _trace(self, request: RenderRequest, light: AreaLight | None) -> LightPasses:
+        job = Trace(request.canvas, request.view, light, request.floor, request.quality)
+        send(self._pipe("stdin"), job)
+        message, arrays = receive(self._pipe("stdout"))
+        if isinstance(message, Failed):
+            self._loaded = b""
+            raise RenderError(
+                "The renderer could not render this frame.", message.what, message.details
+            )
+        if not isinstance(message, Traced) or len(arrays) not in (2, 4):
+            raise WireError(f"an unexpected {type(message).__name__}")
+        return LightPasses(*(array.astype(np.float32, copy=False) for array in arrays))
+
+    def _pipe(self, name: Literal["stdin", "stdout"]) -> FileIO:
+        """The child's end ``name``, unbuffered."""
+        return cast(FileIO, getattr(self._process, name))
+
+    def _lost(self, error: Exception) -> RenderError:
+        """Clear away the dead child and say what is known of its end."""
+        status, log = None, ""
+        if self._process and self._log:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                status = self._process.wait(timeout=2)
+            self._log.seek(max(0, self._log.seek(0, os.SEEK_END) - 4096))
+            log = self._log.read().decode(errors="replace").strip()
+        self._end()
+        remedy = "Try again; the renderer starts anew by itself."
+        if status == -signal.Signals.SIGKILL.value:
+            remedy += " If the machine ran out of memory, choose a lower quality."
+        details = f"exit status {status}; {error}\n{log}".strip()
+        return RenderError("The renderer stopped unexpectedly.", remedy, details)

@@ -1,0 +1,67 @@
+"""How much work a render is given: every trade of speed against noise, in one place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Resolution and samples of one kind of render.
+
+    Attributes:
+        scale: lighting pixels per canvas pixel, at most 1.
+        longest: cap on the longer side of the render, lighting pixels.
+        spp: samples per pixel, at most.
+        threshold: noise at which adaptive sampling leaves a pixel alone; 0 gives every pixel
+            all its samples.
+    """
+
+    scale: float
+    longest: int
+    spp: int
+    threshold: float = 0.0
+
+    def size(self, width: float, height: float) -> tuple[int, int]:
+        """Lighting pixels (columns, rows) for ``width`` x ``height`` canvas pixels."""
+        scale = min(self.scale, self.longest / max(width, height))
+        return max(1, round(width * scale)), max(1, round(height * scale))
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Settings of one preset: ``light`` for each area light on the figure, ``ambient`` for
+    the ambient light on it, ``floor`` for the floor under each of them; ``mesh_stride`` is
+    the pixels between two vertices of the relief."""
+
+    light: Sampling
+    ambient: Sampling
+    floor: Sampling
+    denoise: Literal["fast", "balanced", "high"]
+    mesh_stride: int
+
+
+QUALITIES: dict[str, Quality] = {
+    "low": Quality(
+        light=Sampling(0.5, 192, 4),
+        ambient=Sampling(0.5, 128, 8),
+        floor=Sampling(0.5, 96, 4),
+        denoise="fast",
+        mesh_stride=4,
+    ),
+    "medium": Quality(
+        light=Sampling(0.5, 512, 16),
+        ambient=Sampling(0.5, 384, 16),
+        floor=Sampling(0.5, 192, 16),
+        denoise="balanced",
+        mesh_stride=2,
+    ),
+    "final": Quality(
+        light=Sampling(1.0, 4096, 64, 0.02),
+        ambient=Sampling(0.5, 2048, 128, 0.02),
+        floor=Sampling(0.25, 1024, 64),
+        denoise="high",
+        mesh_stride=1,
+    ),
+}

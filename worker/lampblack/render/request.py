@@ -1,0 +1,90 @@
+"""What the render child is asked for: a surface, its lights, and a piece of the canvas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..composite.colour import linear
+from ..drawing.drawing import Drawing
+from ..scene import AreaLight, Canvas, Floor, Scene
+from ..surface.relief import Relief
+from .quality import QUALITIES, Quality
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The relief and what each of its V vertices is made of.
+
+    Attributes:
+        relief: canvas pixels.
+        albedo: (V, 3) float32, scene-linear. It bleeds onto its neighbours, and unlit or
+            glossy-only colours bleed too.
+        gloss: (V,) float32 in 0..1, amount of the glossy lobe.
+        roughness: (V,) float32 in 0.02..1.
+    """
+
+    relief: Relief
+    albedo: NDArray[np.float32]
+    gloss: NDArray[np.float32]
+    roughness: NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class RenderRequest:
+    """One trace: which light to send over which surface.
+
+    Attributes:
+        surface: kept by the child until another comes, so moving a light is cheap.
+        canvas: its ``default_height`` calibrates the lights.
+        lights: area lights to trace; their colour and power are left to the composite.
+        ambient: trace the ambient light as well.
+        floor: the shadow-catching floor, or None.
+        rect: (x, y, width, height) of the canvas to trace, canvas pixels; None for all.
+        quality: resolution and samples.
+    """
+
+    surface: Surface
+    canvas: Canvas
+    lights: tuple[AreaLight, ...]
+    ambient: bool = True
+    floor: Floor | None = None
+    rect: tuple[float, float, float, float] | None = None
+    quality: Quality = QUALITIES["low"]
+
+    @property
+    def view(self) -> tuple[float, float, float, float]:
+        """(x, y, width, height) of the traced piece, canvas pixels."""
+        return self.rect or (0.0, 0.0, float(self.canvas.width), float(self.canvas.height))
+
+
+def frame_request(drawing: Drawing, relief: Relief, scene: Scene) -> RenderRequest:
+    """Ask for all the light of ``scene`` on one frame.
+
+    Each vertex wears the albedo and material of the pixel it stands on; those past the
+    figure's edge wear the nearest pixel's.
+    """
+    height, width = drawing.mask.shape
+    column = np.clip(relief.vertices[:, 0].astype(np.intp), 0, width - 1)
+    row = np.clip(relief.vertices[:, 1].astype(np.intp), 0, height - 1)
+    if (drawing.labels >= 0).any():
+        row, column = ndimage.distance_transform_edt(
+            drawing.labels < 0, return_distances=False, return_indices=True
+        )[:, row, column]
+    materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
+    materials.append(scene.default_material)
+    gloss = np.array([m.gloss if m.glossy else 0.0 for m in materials], np.float32)
+    roughness = np.array([m.roughness for m in materials], np.float32)
+    label = drawing.labels[row, column]
+    return RenderRequest(
+        surface=Surface(
+            relief, linear(drawing.albedo[row, column]), gloss[label], roughness[label]
+        ),
+        canvas=scene.canvas,
+        lights=scene.lights,
+        floor=scene.floor,
+        quality=QUALITIES[scene.quality],
+    )

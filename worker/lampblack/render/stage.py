@@ -1,0 +1,252 @@
+"""The Blender scene: one relief, one light, a floor, an orthographic camera.
+
+Blender's frame here: the canvas centre is the origin, x right, y up, z to the viewer, and
+half the canvas's long side is 1.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any, Literal
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import AreaLight, Canvas, Floor
+from .quality import Sampling
+
+CAMERA_HEIGHT = 60.0
+FLOOR_REACH = 200.0
+FLOOR_ALBEDO = 0.6
+ALBEDO_RANGE = 0.03, 0.9  # Cycles divides the light by the albedo, and white never darkens
+PASSES = (
+    "diffuse_direct",
+    "diffuse_indirect",
+    "diffuse_color",
+    "glossy_direct",
+    "glossy_indirect",
+    "glossy_color",
+    "normal",
+)
+
+
+class Stage:
+    """Holds the Blender scene between renders, so that only what changed is rebuilt."""
+
+    def __init__(self) -> None:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        self.scene: Any = bpy.context.scene
+        self._set_engine()
+        self._surface: tuple[NDArray[np.float32], NDArray[np.int32], Any] | None = None
+        self._canvas: Canvas | None = None
+        self._figure = self._add("figure", bpy.data.meshes.new("figure"))
+        # A mesh with two users keeps its BVH to itself, so a moved light leaves it standing.
+        self._twin = self._add("twin", self._figure.data)
+        self._twin.location = (0, 0, -10 * FLOOR_REACH)
+        self._twin.scale = (1e-3, 1e-3, 1e-3)
+        _set_visible(self._twin, "")
+        self._floor = self._add("floor", _floor_mesh())
+        lamp = bpy.data.lights.new("lamp", "AREA")
+        lamp.shape = "DISK"
+        lamp.normalize = False
+        self._lamp = self._add("lamp", lamp)
+        self._lamp.visible_camera = False
+        camera = bpy.data.cameras.new("camera")
+        camera.type = "ORTHO"
+        camera.clip_end = 2 * CAMERA_HEIGHT + FLOOR_REACH
+        self._camera = self._add("camera", camera)
+        self.scene.camera = self._camera
+        self.scene.world = bpy.data.worlds.new("ambient")
+        # Sampled by bounces alone: shadow rays would slip through the floor.
+        self.scene.world.cycles.sampling_method = "NONE"
+        self._ambient = self.scene.world.node_tree.nodes["Background"].inputs
+
+    def set_surface(
+        self,
+        vertices: NDArray[np.float32],
+        faces: NDArray[np.int32],
+        albedo: NDArray[np.float32],
+        gloss: NDArray[np.float32],
+        roughness: NDArray[np.float32],
+    ) -> None:
+        """Take a relief in canvas pixels; it is built when the canvas is known."""
+        self._surface = vertices, faces, (albedo, gloss, roughness)
+        self._canvas = None
+
+    def set_canvas(self, canvas: Canvas) -> None:
+        """Build the relief for ``canvas``, if that is not what stands there already."""
+        if canvas == self._canvas or self._surface is None:
+            return
+        vertices, faces, (albedo, gloss, roughness) = self._surface
+        old = self._figure.data
+        mesh = bpy.data.meshes.new("figure")
+        mesh.vertices.add(len(vertices))
+        mesh.attributes["position"].data.foreach_set(
+            "vector", _to_blender(vertices, canvas).ravel()
+        )
+        mesh.loops.add(faces.size)
+        mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(faces).ravel())
+        mesh.polygons.add(len(faces))
+        mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 3, dtype=np.int32))
+        colour = mesh.attributes.new("albedo", "FLOAT_VECTOR", "POINT")
+        colour.data.foreach_set("vector", np.clip(albedo, *ALBEDO_RANGE).ravel())
+        for name, values in (("gloss", gloss), ("roughness", roughness)):
+            mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
+        mesh.update()
+        mesh.materials.append(_figure_material(glossy=bool(gloss.any())))
+        self._figure.data = self._twin.data = mesh
+        for material in old.materials:
+            bpy.data.materials.remove(material)
+        bpy.data.meshes.remove(old)
+        self._canvas = canvas
+
+    def set_floor(self, floor: Floor | None, canvas: Canvas) -> None:
+        """Hinge the floor at its line, pitched towards the viewer; None takes it away."""
+        self._floor.hide_render = floor is None
+        if floor is not None:
+            hinge = _to_blender(np.array([[0, floor.y, 0]], np.float32), canvas)[0]
+            self._floor.location = (0, hinge[1], 0)
+            self._floor.rotation_euler = (math.radians(floor.pitch - 90), 0, 0)
+
+    def set_view(
+        self, view: tuple[float, float, float, float], size: tuple[int, int], canvas: Canvas
+    ) -> None:
+        """Aim the camera at ``view`` (x, y, width, height, canvas pixels), ``size`` pixels."""
+        x, y, width, height = view
+        centre = np.array([[x + width / 2, y + height / 2, 0]], np.float32)
+        self._camera.location = (*_to_blender(centre, canvas)[0, :2], CAMERA_HEIGHT)
+        self._camera.data.ortho_scale = max(width, height) / canvas.default_height
+        render = self.scene.render
+        render.resolution_x, render.resolution_y = size
+        # Pixels as oblong as it takes for the rounded size to cover the view exactly.
+        aspect = (width / size[0]) / (height / size[1])
+        render.pixel_aspect_x, render.pixel_aspect_y = max(1, aspect), max(1, 1 / aspect)
+
+    def set_source(self, light: AreaLight | None, canvas: Canvas) -> None:
+        """Leave one source shining: a white area light of power 1, or the ambient light."""
+        self._lamp.hide_render = light is None
+        self._ambient["Color"].default_value = (1, 1, 1, 1)
+        self._ambient["Strength"].default_value = float(light is None)
+        if light is not None:
+            at = np.array([[light.x, light.y, light.z]], np.float32)
+            self._lamp.location = _to_blender(at, canvas)[0]
+            self._lamp.rotation_euler = (math.pi if light.z < 0 else 0, 0, 0)
+            radius = light.size / 2 / canvas.default_height
+            self._lamp.data.size = 2 * radius
+            # Radiance that lights a facing surface at distance 1 to an irradiance of pi.
+            self._lamp.data.energy = math.pi * (radius**2 + 1) / radius**2
+
+    def set_subject(self, subject: Literal["figure", "floor", "bare floor"]) -> None:
+        """Choose what the camera sees; the other is still there for the light it throws.
+
+        The floor never casts a shadow, so that a figure is not darkened where it dips below.
+        """
+        _set_visible(self._figure, {"figure": "cdgs", "floor": "dgs", "bare floor": ""}[subject])
+        _set_visible(self._floor, "dg" if subject == "figure" else "cdg")
+
+    def set_sampling(self, sampling: Sampling) -> None:
+        """Set samples per pixel and adaptive threshold."""
+        cycles = self.scene.cycles
+        cycles.samples = sampling.spp
+        cycles.use_adaptive_sampling = sampling.threshold > 0
+        cycles.adaptive_threshold = sampling.threshold
+        # Cycles only looks at its settings again when told that the film changed.
+        self.scene.render.filter_size = self.scene.render.filter_size
+
+    def _set_engine(self) -> None:
+        render = self.scene.render
+        render.engine = "CYCLES"
+        render.film_transparent = True
+        render.use_persistent_data = True
+        render.use_compositing = render.use_sequencer = False
+        render.threads_mode = "FIXED"
+        render.threads = threads()
+        cycles = self.scene.cycles
+        cycles.pixel_filter_type = "BOX"
+        cycles.use_auto_tile = False
+        cycles.use_denoising = False
+        cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+        cycles.light_sampling_threshold = 0
+        cycles.caustics_reflective = cycles.caustics_refractive = False
+        cycles.max_bounces = cycles.diffuse_bounces = 4
+        cycles.glossy_bounces = 2
+        layer = self.scene.view_layers[0]
+        for name in PASSES:
+            setattr(layer, f"use_pass_{name}", True)
+
+    def _add(self, name: str, data: Any) -> Any:
+        thing = bpy.data.objects.new(name, data)
+        self.scene.collection.objects.link(thing)
+        return thing
+
+
+def threads() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _to_blender(points: NDArray[np.float32], canvas: Canvas) -> NDArray[np.float32]:
+    """(N, 3) canvas pixels to Blender's frame."""
+    centre = np.array([canvas.width / 2, canvas.height / 2, 0], np.float32)
+    flip = np.array([1, -1, 1], np.float32)
+    return ((points - centre) * flip / np.float32(canvas.default_height)).astype(np.float32)
+
+
+def _set_visible(thing: Any, rays: str) -> None:
+    """Show to camera, diffuse, glossy and shadow rays by initial."""
+    thing.visible_camera = "c" in rays
+    thing.visible_diffuse = "d" in rays
+    thing.visible_glossy = "g" in rays
+    thing.visible_shadow = "s" in rays
+    thing.visible_transmission = thing.visible_volume_scatter = False
+
+
+def _figure_material(*, glossy: bool) -> Any:
+    """Diffuse in the albedo, plus a white GGX lobe where the gloss says so."""
+    material = bpy.data.materials.new("figure")
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+
+    def attribute(name: str, output: str) -> Any:
+        node = nodes.new("ShaderNodeAttribute")
+        node.attribute_name = name
+        return node.outputs[output]
+
+    shader = nodes.new("ShaderNodeBsdfDiffuse")
+    links.new(attribute("albedo", "Vector"), shader.inputs["Color"])
+    if glossy:
+        lobe = nodes.new("ShaderNodeBsdfAnisotropic")
+        lobe.distribution = "GGX"
+        links.new(attribute("gloss", "Fac"), lobe.inputs["Color"])
+        links.new(attribute("roughness", "Fac"), lobe.inputs["Roughness"])
+        both = nodes.new("ShaderNodeAddShader")
+        links.new(shader.outputs[0], both.inputs[0])
+        links.new(lobe.outputs[0], both.inputs[1])
+        shader = both
+    output = nodes.new("ShaderNodeOutputMaterial")
+    links.new(shader.outputs[0], output.inputs["Surface"])
+    return material
+
+
+def _floor_mesh() -> Any:
+    """A diffuse square facing its own z; seen from behind it is not there."""
+    mesh = bpy.data.meshes.new("floor")
+    r = FLOOR_REACH
+    mesh.from_pydata([(-r, -r, 0), (r, -r, 0), (r, r, 0), (-r, r, 0)], [], [(0, 1, 2, 3)])
+    material = bpy.data.materials.new("floor")
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+    diffuse = nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = (FLOOR_ALBEDO, FLOOR_ALBEDO, FLOOR_ALBEDO, 1)
+    side = nodes.new("ShaderNodeMixShader")
+    links.new(nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"], side.inputs["Fac"])
+    links.new(diffuse.outputs[0], side.inputs[1])
+    links.new(nodes.new("ShaderNodeBsdfTransparent").outputs[0], side.inputs[2])
+    output = nodes.new("ShaderNodeOutputMaterial")
+    links.new(side.outputs[0], output.inputs["Surface"])
+    mesh.materials.append(material)
+    return mesh

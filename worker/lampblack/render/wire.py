@@ -1,0 +1,121 @@
+"""Messages between the client and its render child, over a pair of pipes.
+
+A message is a little-endian 32-bit length, that many bytes of JSON, and then the raw arrays
+that the JSON announces, each in C order.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterable
+from io import FileIO
+from typing import Annotated, Literal
+
+import msgspec
+import numpy as np
+from msgspec import Meta
+from numpy.typing import NDArray
+
+from ..scene import AreaLight, Canvas, Floor
+from .quality import Quality
+
+MAX_HEADER_BYTES = 1 << 20
+MAX_ARRAY_BYTES = 1 << 32
+
+Array = NDArray[np.float32] | NDArray[np.int32]
+
+
+class WireError(Exception):
+    """The other end closed the pipe, or sent what this end cannot read."""
+
+
+class Load(msgspec.Struct, tag=True):
+    """Replace the surface. Arrays: vertices, faces, albedo, gloss, roughness."""
+
+
+class Trace(msgspec.Struct, tag=True):
+    """Trace one source, ``light`` or else the ambient; answered by Traced or Failed."""
+
+    canvas: Canvas
+    view: tuple[float, float, float, float]
+    light: AreaLight | None
+    floor: Floor | None
+    quality: Quality
+
+
+class Traced(msgspec.Struct, tag=True):
+    """Arrays: diffuse, glossy and, with a floor, floor and floor_light."""
+
+
+class Failed(msgspec.Struct, tag=True):
+    """The child could not do it, but lives on."""
+
+    what: str
+    details: str
+
+
+Message = Load | Trace | Traced | Failed
+
+
+class ArraySpec(msgspec.Struct, array_like=True):
+    """Type and shape of an array that follows the header."""
+
+    dtype: Literal["float32", "int32"]
+    shape: Annotated[tuple[Annotated[int, Meta(ge=0, le=1 << 31)], ...], Meta(max_length=3)]
+
+
+def send(stream: FileIO, message: Message, arrays: Iterable[Array] = ()) -> None:
+    """Write one message.
+
+    Raises:
+        OSError: the pipe is broken.
+    """
+    sent = [np.ascontiguousarray(array) for array in arrays]
+    specs = [(array.dtype.name, array.shape) for array in sent]
+    header = msgspec.json.encode((message, specs))
+    _write(stream, memoryview(struct.pack("<I", len(header)) + header))
+    for array in sent:
+        if array.size:
+            _write(stream, array.data.cast("B"))
+
+
+def receive(stream: FileIO) -> tuple[Message, list[Array]]:
+    """Read one message and its arrays.
+
+    Raises:
+        WireError: the pipe closed, or the message is malformed or too large.
+    """
+    (length,) = struct.unpack("<I", _read(stream, bytearray(4)))
+    if length > MAX_HEADER_BYTES:
+        raise WireError(f"a header of {length} bytes")
+    try:
+        message, specs = msgspec.json.decode(
+            _read(stream, bytearray(length)), type=tuple[Message, list[ArraySpec]]
+        )
+    except msgspec.DecodeError as error:
+        raise WireError(str(error)) from error
+    arrays: list[Array] = []
+    for spec in specs:
+        if math.prod(spec.shape) * 4 > MAX_ARRAY_BYTES:
+            raise WireError(f"an array of shape {spec.shape}")
+        array: Array = np.zeros(spec.shape, spec.dtype)
+        if array.size:
+            _read(stream, array.data.cast("B"))
+        arrays.append(array)
+    return message, arrays
+
+
+def _write(stream: FileIO, data: memoryview) -> None:
+    while data:
+        data = data[stream.write(data) or 0 :]
+
+
+def _read(stream: FileIO, buffer: bytearray | memoryview) -> bytearray | memoryview:
+    rest = memoryview(buffer)
+    while rest:
+        count = stream.readinto(rest)
+        if not count:
+            raise WireError("the pipe closed")
+        rest = rest[count:]
+    return buffer
