@@ -2,7 +2,24 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..errors import LampblackWarning
+from .cutout import Colours
+from .mask import Mask
+
+MAX_SWATCHES = 64
+
+_APART = 10
+"""Levels by which some channel of two flat colours differs, or they are one colour."""
+
+_BELONGS = 28
+"""Levels a pixel may stray from a swatch before it needs another one."""
 
 
 @dataclass(frozen=True)
@@ -18,3 +35,151 @@ class Palette:
     """Swatches, most used first."""
 
     swatches: tuple[Swatch, ...]
+
+
+def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]:
+    """The flat colours of ``fill`` and which of them each pixel wears.
+
+    A flat colour is one that neighbouring pixels share exactly; blends along edges take the
+    label of the nearest pixel that is no blend. Painted areas, which have no flat colour,
+    get the cells of a fixed lattice, so that their keys stay put from frame to frame.
+
+    Args:
+        fill: (H, W, 3) uint8 sRGB, continued beneath the ink.
+        mask: (H, W) bool.
+
+    Returns:
+        The palette, and (H, W) int16 indices into it, -1 outside the mask.
+
+    Warns:
+        LampblackWarning: painted art, or more than ``MAX_SWATCHES`` colours, was grouped.
+    """
+    packed = fill.astype(np.int32) @ np.array([65536, 256, 1], np.int32)
+    smooth = mask & _is_smooth(fill)
+    if not smooth.any():
+        smooth = mask
+    flats = _flat_colours(packed, smooth)
+    cells = _cells(packed)
+    occupied = np.flatnonzero(np.bincount(cells[smooth], minlength=1 << 15))
+    centres = _cell_centres(occupied)
+    keys, painted = _add_painted(
+        flats, centres, np.bincount(cells[smooth], minlength=1 << 15)[occupied]
+    )
+    if painted:
+        warnings.warn(
+            f"The drawing is painted in very many colours; they were grouped into {len(keys)}.",
+            LampblackWarning,
+            stacklevel=2,
+        )
+    lookup = np.zeros(1 << 15, np.int16)
+    lookup[occupied] = _nearest_key(centres, keys)
+    labels = _with_exact(lookup[cells], packed, keys)
+    if not smooth.all():
+        rows, columns = ndimage.distance_transform_edt(
+            ~smooth, return_distances=False, return_indices=True
+        )
+        labels = labels[rows, columns]
+    return _most_used_first(keys, np.where(mask, labels, np.int16(-1)))
+
+
+def _is_smooth(fill: Colours) -> Mask:
+    """Whether a pixel is part of an area rather than of the blend between two."""
+    spread = np.zeros(fill.shape[:2], np.uint8)
+    for channel in range(3):
+        plane = fill[..., channel]
+        high = ndimage.maximum_filter(plane, 3)
+        np.maximum(spread, high - ndimage.minimum_filter(plane, 3), out=spread)
+    return np.asarray(spread <= 20)
+
+
+def _flat_colours(packed: NDArray[np.int32], smooth: Mask) -> NDArray[np.int16]:
+    """(K, 3) colours that neighbours share, most used first, each clear of the others."""
+    same = smooth.copy()
+    same[:, 1:] &= packed[:, 1:] == packed[:, :-1]
+    same[1:] &= packed[1:] == packed[:-1]
+    values, counts = np.unique(packed[same], return_counts=True)
+    enough = counts >= max(8, 2e-4 * np.count_nonzero(smooth))
+    order = np.argsort(-counts[enough], kind="stable")
+    kept = np.zeros((0, 3), np.int16)
+    for colour in _unpack(values[enough][order]):
+        if len(kept) == MAX_SWATCHES:
+            break
+        if not len(kept) or np.abs(kept - colour).max(axis=1).min() >= _APART:
+            kept = np.vstack([kept, colour])
+    return kept
+
+
+def _add_painted(
+    flats: NDArray[np.int16], centres: NDArray[np.int16], counts: NDArray[np.int64]
+) -> tuple[NDArray[np.int16], bool]:
+    """Lattice colours for the cells that no flat colour stands for, and whether it was
+    worth a word."""
+    far = np.ones(len(centres), bool)
+    if len(flats):
+        far = np.abs(centres[:, None] - flats[None]).max(axis=2).min(axis=1) > _BELONGS
+    if not far.any():
+        return flats, False
+    step = 32
+    while True:
+        lattice, which = np.unique(centres[far] // step, axis=0, return_inverse=True)
+        weight = np.bincount(which.ravel(), counts[far])
+        lattice = lattice[weight >= max(4, 5e-4 * counts.sum())]
+        if len(lattice) + len(flats) <= MAX_SWATCHES or step == 128:
+            break
+        step *= 2
+    room = MAX_SWATCHES - len(lattice)
+    keys = np.vstack([flats[:room], (lattice * step + step // 2).astype(np.int16)])
+    if not len(keys):
+        keys = centres[[np.argmax(counts)]]
+    return keys, bool(counts[far].sum() > 0.05 * counts.sum())
+
+
+def _cells(packed: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Five bits a channel."""
+    return ((packed >> 9) & 0x7C00) | ((packed >> 6) & 0x3E0) | ((packed >> 3) & 0x1F)
+
+
+def _cell_centres(cells: NDArray[np.int64]) -> NDArray[np.int16]:
+    centres = [(cells >> shift & 31) * 8 + 4 for shift in (10, 5, 0)]
+    return np.asarray(np.stack(centres, axis=-1), np.int16)
+
+
+def _unpack(packed: NDArray[np.int32]) -> NDArray[np.int16]:
+    channels = [packed >> shift & 255 for shift in (16, 8, 0)]
+    return np.asarray(np.stack(channels, axis=-1), np.int16)
+
+
+def _nearest_key(colours: NDArray[np.int16], keys: NDArray[np.int16]) -> NDArray[np.int16]:
+    nearest = np.zeros(len(colours), np.int16)
+    best = np.full(len(colours), np.iinfo(np.int32).max)
+    for index, key in enumerate(keys.astype(np.int32)):
+        distance = ((colours - key) ** 2).sum(axis=1)
+        closer = distance < best
+        best[closer] = distance[closer]
+        nearest[closer] = index
+    return nearest
+
+
+def _with_exact(
+    labels: NDArray[np.int16], packed: NDArray[np.int32], keys: NDArray[np.int16]
+) -> NDArray[np.int16]:
+    """Two keys may share a cell: a pixel of exactly a key's colour wears that key."""
+    codes = keys.astype(np.int32) @ np.array([65536, 256, 1], np.int32)
+    order = np.argsort(codes)
+    place = np.minimum(np.searchsorted(codes[order], packed), len(codes) - 1)
+    exact = codes[order][place] == packed
+    return np.where(exact, order[place].astype(np.int16), labels)
+
+
+def _most_used_first(
+    keys: NDArray[np.int16], labels: NDArray[np.int16]
+) -> tuple[Palette, NDArray[np.int16]]:
+    counts = np.bincount(labels[labels >= 0], minlength=len(keys))
+    order = np.argsort(-counts, kind="stable")
+    order = order[counts[order] > 0]
+    rank = np.full(len(keys) + 1, -1, np.int16)
+    rank[order] = np.arange(len(order))
+    swatches = tuple(
+        Swatch("#{:02x}{:02x}{:02x}".format(*keys[index]), int(counts[index])) for index in order
+    )
+    return Palette(swatches), rank[labels]

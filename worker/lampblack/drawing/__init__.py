@@ -1,0 +1,25 @@
+"""Drawings: read from disk, put in order, taken apart into figure, line and fill."""
+
+from .cutout import figure_mask
+from .drawing import Drawing
+from .load import load_picture, save_picture
+from .mask import ink_from_picture, mask_from_picture
+from .palette import Palette, Swatch
+from .sequence import Frame, find_frames, parse_frames, select_frames
+from .take_apart import take_apart
+
+__all__ = [
+    "Drawing",
+    "Frame",
+    "Palette",
+    "Swatch",
+    "figure_mask",
+    "find_frames",
+    "ink_from_picture",
+    "load_picture",
+    "mask_from_picture",
+    "parse_frames",
+    "save_picture",
+    "select_frames",
+    "take_apart",
+]

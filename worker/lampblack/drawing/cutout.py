@@ -1,0 +1,174 @@
+"""The figure lifted off its paper: straight colour and coverage, as if drawn on nothing."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..errors import DrawingError, LampblackWarning
+from .mask import MIN_FIGURE, Mask, is_line_art, outside_of
+
+Colours = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Cutout:
+    """The figure without its paper.
+
+    Attributes:
+        colour: (H, W, 3) uint8 sRGB, the figure's own colour, free of the paper's.
+        coverage: (H, W) float32 in 0..1.
+        mask: (H, W) bool, True inside.
+    """
+
+    colour: Colours
+    coverage: NDArray[np.float32]
+    mask: Mask
+
+
+def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None) -> Cutout:
+    """Lift the figure in ``pixels``, (H, W, 4) uint8, off its background.
+
+    A picture with transparency is cut by its alpha; otherwise the paper is what the border
+    of the picture shows, flooded inwards to the figure. Regions that line encloses belong
+    to the figure even when empty, and are then covered with paper; holes in filled,
+    transparent art stay holes. ``inside``, (H, W) in 0..1, overrides all this.
+
+    Raises:
+        DrawingError: nothing is drawn, or next to nothing.
+    """
+    alpha = pixels[..., 3]
+    top = int(alpha.max())
+    if top == 0:
+        raise DrawingError("The picture is fully transparent.", "Export the drawing with its ink.")
+    if inside is not None:
+        cutout = _by_override(pixels, inside)
+    elif np.count_nonzero(alpha < 128) > 0.001 * alpha.size:
+        cutout = _by_alpha(pixels, alpha >= max(top / 2, 1))
+    else:
+        cutout = _from_paper(_over_white(pixels))
+    count = np.count_nonzero(cutout.mask)
+    if count < MIN_FIGURE:
+        raise DrawingError(
+            f"The figure is only {count} pixels large." if count else "Nothing is drawn here.",
+            "Draw or export the figure larger.",
+        )
+    return cutout
+
+
+def figure_mask(pixels: NDArray[np.uint8]) -> Mask:
+    """The figure in ``pixels``, (H, W) bool; see ``cut_out``."""
+    return cut_out(pixels).mask
+
+
+def _by_override(pixels: NDArray[np.uint8], inside: NDArray[np.float32]) -> Cutout:
+    return _cover_with_paper(pixels, inside >= 0.5, inside)
+
+
+def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
+    alpha = pixels[..., 3].astype(np.float32) / 255
+    if is_line_art(drawn):
+        return _cover_with_paper(pixels, ~outside_of(drawn, line_art=True), alpha)
+    return Cutout(pixels[..., :3].copy(), alpha, drawn)
+
+
+def _cover_with_paper(pixels: NDArray[np.uint8], mask: Mask, edge: NDArray[np.float32]) -> Cutout:
+    """White paper under all of ``mask`` but its rim, which keeps coverage ``edge``."""
+    within = ndimage.binary_erosion(mask, border_value=1)
+    drawn = pixels[..., 3] >= 128
+    hollow = within & ~drawn
+    # Line thinner than two pixels has the rim on one side and the hollow on the other.
+    covered = within | (mask & ndimage.binary_dilation(hollow, iterations=2) & ~drawn)
+    colour = np.where(covered[..., None], _over_white(pixels), pixels[..., :3])
+    return Cutout(colour, np.where(covered, np.float32(1), edge).astype(np.float32), mask)
+
+
+def _over_white(pixels: NDArray[np.uint8]) -> Colours:
+    if pixels[..., 3].min() == 255:
+        return pixels[..., :3]
+    alpha = pixels[..., 3:].astype(np.uint16)
+    return ((pixels[..., :3] * alpha + 255 * (255 - alpha) + 127) // 255).astype(np.uint8)
+
+
+def _from_paper(picture: Colours) -> Cutout:
+    paper, tolerance = _paper_of(picture)
+    difference = np.abs(picture.astype(np.int16) - paper).max(axis=2)
+    drawn = _without_dust(difference > tolerance)
+    if not drawn.any():
+        raise DrawingError("The paper is blank.", "Choose a picture with a drawing on it.")
+    outside = outside_of(drawn, line_art=is_line_art(drawn))
+    return _lift(picture, paper, outside, difference, tolerance)
+
+
+def _paper_of(picture: Colours) -> tuple[NDArray[np.int16], int]:
+    """The colour most of the border wears, and how far the paper's grain strays from it."""
+    border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]]).astype(
+        np.int16
+    )
+    coarse = (border >> 5) @ np.array([64, 8, 1], np.int16)
+    common = np.bincount(coarse, minlength=512).argmax()
+    paper = np.median(border[coarse == common], axis=0).astype(np.int16)
+    stray = np.abs(border - paper).max(axis=1)
+    near = stray[stray < 48]
+    if len(near) < 0.5 * len(stray):
+        warnings.warn(
+            "The background is not plain paper, so the figure may be cut out wrongly; "
+            "give a mask, or export the drawing with transparency.",
+            LampblackWarning,
+            stacklevel=2,
+        )
+    grain = float(np.percentile(near, 98)) if len(near) else 0.0
+    return paper, int(np.clip(8 + 2 * grain, 10, 48))
+
+
+def _without_dust(drawn: Mask) -> Mask:
+    """Specks of a few pixels are the paper's grain or the scanner's dust."""
+    regions, count = ndimage.label(drawn, np.ones((3, 3)))
+    areas = np.bincount(regions.ravel(), minlength=count + 1)
+    keep = areas > 6
+    keep[0] = False
+    return np.asarray(keep[regions])
+
+
+def _lift(
+    picture: Colours,
+    paper: NDArray[np.int16],
+    outside: Mask,
+    difference: NDArray[np.int16],
+    tolerance: int,
+) -> Cutout:
+    """Solve pixel = coverage x figure + (1 - coverage) x paper along the figure's rim.
+
+    The figure's colour there is taken from the pixel nearby that differs most from paper.
+    """
+    rim = ndimage.binary_dilation(outside) & ndimage.binary_dilation(~outside, iterations=2)
+    rows, columns = np.nonzero(rim)
+    best = difference[rows, columns].astype(np.int32)
+    figure = picture[rows, columns].astype(np.int16)
+    height, width = outside.shape
+    for dy in range(-2, 3):
+        for dx in range(-2, 3):
+            y, x = np.clip(rows + dy, 0, height - 1), np.clip(columns + dx, 0, width - 1)
+            better = difference[y, x] > best
+            best[better] = difference[y, x][better]
+            figure[better] = picture[y, x][better]
+    towards = (figure - paper).astype(np.float32)
+    offset = picture[rows, columns].astype(np.float32) - paper
+    share = (offset * towards).sum(axis=1) / np.maximum((towards**2).sum(axis=1), 1)
+    share = np.clip(share, 0, 1)
+    share[(best <= tolerance) & outside[rows, columns]] = 0
+    # An enclosed white region reaches the rim where the line has a gap: that is figure.
+    share[(best <= tolerance) & ~outside[rows, columns]] = 1
+
+    coverage = (~outside).astype(np.float32)
+    coverage[rows, columns] = share
+    colour = picture.copy()
+    solved = share > 1 / 255
+    clean = paper + offset[solved] / share[solved, None]
+    colour[rows[solved], columns[solved]] = np.clip(np.rint(clean), 0, 255).astype(np.uint8)
+    mask = coverage >= 0.5
+    return Cutout(colour, coverage, mask)

@@ -1,0 +1,133 @@
+"""Line and fill pulled apart: how much ink lies over each pixel, and what lies beneath."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from .cutout import Colours, Cutout
+from .ink import luma
+from .mask import Mask
+
+
+@dataclass(frozen=True)
+class Layers:
+    """``over(ink_colour x ink, albedo)`` is the cutout's colour inside its mask.
+
+    Attributes:
+        ink: (H, W) float32 in 0..1.
+        ink_colour: (H, W, 3) float32 sRGB in 0..1.
+        albedo: (H, W, 3) float32 sRGB in 0..1, continued beneath the ink and everywhere
+            around the figure.
+        fill: (H, W, 3) uint8 sRGB, the albedo before it took up the rounding of mixed
+            pixels: flat where the fill is flat.
+    """
+
+    ink: NDArray[np.float32]
+    ink_colour: NDArray[np.float32]
+    albedo: NDArray[np.float32]
+    fill: Colours
+
+
+def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = None) -> Layers:
+    """Solve pixel = ink x ink_colour + (1 - ink) x albedo for all three.
+
+    Pixels away from the line are fill, those in its middle ink; the mixed ones between
+    project their colour onto the way from the nearest fill to the nearest ink. What is left
+    over goes to the layer that shows more, so that the layers always give the drawing back.
+
+    Args:
+        cutout: the figure.
+        lines: (H, W) bool, at least about half covered by ink.
+        given: (H, W) float32, the ink's coverage where the artist has painted it.
+    """
+    colour, mask = cutout.colour, cutout.mask
+    around = np.ones((3, 3))
+    touched = ndimage.binary_dilation(lines, around)
+    touched |= ~mask & ndimage.binary_dilation(touched, around)
+    fill = _continue_fill(cutout, touched, lines)
+    rows, columns = np.nonzero(touched if given is None else given > 0)
+    pixel = colour[rows, columns].astype(np.float32) / 255
+    under = fill[rows, columns].astype(np.float32) / 255
+    over = _pure_ink(colour, lines)[rows, columns].astype(np.float32) / 255
+    if given is None:
+        share = _share(pixel, under, over)
+        middle = ndimage.binary_erosion(lines, border_value=1)
+        share[middle[rows, columns]] = 1
+        share[~mask[rows, columns] & lines[rows, columns]] = 1
+    else:
+        share = given[rows, columns]
+    over, under = _take_up_rest(pixel, share, over, under)
+
+    ink = np.zeros(mask.shape, np.float32)
+    ink[rows, columns] = share
+    ink_colour = np.zeros((*mask.shape, 3), np.float32)
+    ink_colour[rows, columns] = over
+    albedo = np.multiply(fill, np.float32(1 / 255), dtype=np.float32)
+    albedo[rows, columns] = under
+    return Layers(ink, ink_colour, albedo, fill)
+
+
+def _continue_fill(cutout: Cutout, touched: Mask, lines: Mask) -> Colours:
+    """The fill's colours, carried on from the nearest pixel that ink does not touch."""
+    solid = cutout.mask & (cutout.coverage >= 0.99 * cutout.coverage.max())
+    sure = solid & ~touched
+    # Between two close lines no pixel is free of ink; the lightest there is nearest to it.
+    light = np.where(solid & ~lines, luma(cutout.colour), np.uint8(0))
+    lightest = (light > 0) & (light >= ndimage.maximum_filter(light, 5))
+    sure |= lightest & ~ndimage.binary_dilation(sure, iterations=3)
+    if not sure.any():
+        return np.full_like(cutout.colour, 255)
+    rows, columns = _nearest(sure)
+    carried = cutout.colour[rows, columns]
+    own = (cutout.coverage > 0.1) & ~touched
+    carried[own] = cutout.colour[own]
+    return np.asarray(carried)
+
+
+def _pure_ink(colour: Colours, lines: Mask) -> Colours:
+    """Every pixel's nearest ink that no fill shines through: the darkest of its line."""
+    if not lines.any():
+        return colour
+    light = np.where(lines, luma(colour), np.uint8(255))
+    darkest = lines & (light <= ndimage.minimum_filter(light, 5))
+    rows, columns = _nearest(darkest)
+    return np.asarray(colour[rows, columns])
+
+
+def _nearest(places: Mask) -> NDArray[np.int32]:
+    """Row and column of the nearest True pixel, for each pixel: (2, H, W)."""
+    indices: NDArray[np.int32] = ndimage.distance_transform_edt(
+        ~places, return_distances=False, return_indices=True
+    )
+    return indices
+
+
+Samples = NDArray[np.float32]
+
+
+def _share(pixel: Samples, under: Samples, over: Samples) -> Samples:
+    """How far each pixel lies on the way from the fill beneath to the ink over it."""
+    way = over - under
+    length = (way**2).sum(axis=1)
+    share = ((pixel - under) * way).sum(axis=1) / np.maximum(length, 1e-4)
+    share = np.clip(share, 0, 1)
+    share[share < 0.02] = 0
+    share[share > 0.98] = 1
+    return np.asarray(share, np.float32)
+
+
+def _take_up_rest(
+    pixel: Samples, share: Samples, over: Samples, under: Samples
+) -> tuple[Samples, Samples]:
+    part = share[:, None]
+    mostly_ink = part >= 0.5
+    for first in (True, False):
+        solved_over = np.clip((pixel - (1 - part) * under) / np.maximum(part, 1e-3), 0, 1)
+        solved_under = np.clip((pixel - part * over) / np.maximum(1 - part, 1e-3), 0, 1)
+        over = np.where(mostly_ink == first, np.where(part > 0, solved_over, over), over)
+        under = np.where(mostly_ink == first, under, np.where(part < 1, solved_under, under))
+    return over.astype(np.float32), under.astype(np.float32)

@@ -1,0 +1,53 @@
+"""The line drawing that the normals are predicted from."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from .cutout import Colours
+from .mask import Mask
+
+_STRONG = 16
+"""Levels by which two fills must differ for their border to stand in for a line."""
+
+
+def line_drawing(
+    ink: NDArray[np.float32], fill: Colours, labels: NDArray[np.int16], mask: Mask
+) -> NDArray[np.float32]:
+    """The ink, and where none was drawn, the figure's outline and the borders of its fills,
+    two pixels wide.
+
+    Args:
+        ink: (H, W) float32 in 0..1.
+        fill: (H, W, 3) uint8 sRGB.
+        labels: (H, W) int16, the flat colour of each pixel, -1 outside.
+        mask: (H, W) bool.
+
+    Returns:
+        (H, W) float32 in 0..1, 0 outside the mask.
+    """
+    borders = mask & ~ndimage.binary_erosion(mask, iterations=2)
+    borders |= _colour_borders(fill, labels)
+    inked = ndimage.binary_dilation(ink > 0.3, iterations=3)
+    lines = np.where(inked, ink, np.maximum(ink, borders))
+    return np.where(mask, lines, np.float32(0)).astype(np.float32)
+
+
+def _colour_borders(fill: Colours, labels: NDArray[np.int16]) -> Mask:
+    """Both pixels at each change of label where the colour changes too, not just its name:
+    the steps of a painted gradient are no borders."""
+    found = np.zeros(labels.shape, bool)
+    for swap in (False, True):
+        kind = labels.T if swap else labels
+        colour = fill.swapaxes(0, 1) if swap else fill
+        border = found.T if swap else found
+        change = kind[:, 1:] != kind[:, :-1]
+        change[:, 1:-1] &= (
+            np.abs(colour[:, 3:].astype(np.int16) - colour[:, :-3]).max(axis=2) >= _STRONG
+        )
+        change &= (kind[:, 1:] >= 0) & (kind[:, :-1] >= 0)
+        border[:, 1:] |= change
+        border[:, :-1] |= change
+    return found
