@@ -26,12 +26,20 @@ class DrawingError(LampblackError):
     """The picture cannot be read, or holds nothing to light."""
 
 
+class NothingDrawnError(DrawingError):
+    """The picture is blank: there is no figure to light."""
+
+
 class SceneError(LampblackError):
     """The scene is malformed, out of range or of an unknown version."""
 
 
 class RenderError(LampblackError):
     """The render child failed or went away."""
+
+
+class OutputError(LampblackError):
+    """A result cannot be written: the disk is full, or the folder is not to be written to."""
 
 
 class LampblackWarning(UserWarning):

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,9 +11,10 @@ import msgspec
 import torch
 from msgspec import Meta
 from safetensors import SafetensorError
-from safetensors.torch import load_file, save_file
+from safetensors.torch import load_file, save
 from torch import nn
 
+from ..atomic import atomic_file
 from ..errors import LampblackError
 
 MAX_WEIGHT_BYTES = 256 << 20
@@ -34,9 +33,10 @@ class NetworkCard:
     """
 
     architecture: str = "dilated-unet"
-    figure_px: tuple[
-        Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]
-    ] = (256, 640)
+    figure_px: tuple[Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]] = (
+        256,
+        640,
+    )
     training: dict[str, Any] | None = None
     measured: dict[str, Any] | None = None
 
@@ -50,11 +50,9 @@ def save_network(path: Path, network: nn.Module, card: NetworkCard) -> None:
     """Write ``path`` (fp16 safetensors) and, beside it, its ``.json`` card; each atomically."""
     weights = {name: t.detach().half().contiguous() for name, t in network.state_dict().items()}
     path.parent.mkdir(parents=True, exist_ok=True)
-    replace_safetensors(path, weights)
-    text = msgspec.json.format(msgspec.json.encode(asdict(card)), indent=2) + b"\n"
-    partial = path.with_suffix(".json.partial")
-    partial.write_bytes(text)
-    partial.replace(path.with_suffix(".json"))
+    write_tensors(path, weights)
+    with atomic_file(path.with_suffix(".json")) as file:
+        file.write(msgspec.json.format(msgspec.json.encode(card), indent=2) + b"\n")
 
 
 def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
@@ -85,13 +83,7 @@ def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
     return network.eval(), card
 
 
-def replace_safetensors(path: Path, tensors: dict[str, torch.Tensor]) -> None:
-    """Write ``tensors`` under a temporary name, then rename it to ``path``."""
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".partial")
-    os.close(handle)
-    try:
-        save_file(tensors, name)
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    finally:
-        Path(name).unlink(missing_ok=True)
+def write_tensors(path: Path, tensors: dict[str, torch.Tensor]) -> None:
+    """Write a safetensors file, whole or not at all."""
+    with atomic_file(path) as file:
+        file.write(save(tensors))

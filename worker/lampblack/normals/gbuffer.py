@@ -37,7 +37,8 @@ def view_rotation(azimuth: float, elevation: float, roll: float = 0.0) -> NDArra
     around_y = np.array([[np.cos(a), 0, -np.sin(a)], [0, 1, 0], [np.sin(a), 0, np.cos(a)]])
     around_x = np.array([[1, 0, 0], [0, np.cos(e), -np.sin(e)], [0, np.sin(e), np.cos(e)]])
     around_z = np.array([[np.cos(r), -np.sin(r), 0], [np.sin(r), np.cos(r), 0], [0, 0, 1]])
-    return (around_z @ around_x @ around_y).astype(np.float32)
+    rotation: NDArray[np.float32] = (around_z @ around_x @ around_y).astype(np.float32)
+    return rotation
 
 
 def trace(model: Model, rotation: NDArray[np.float32], figure_px: int) -> GBuffer:

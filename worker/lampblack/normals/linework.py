@@ -109,9 +109,7 @@ def _creases(view: GBuffer, degrees: float) -> NDArray[np.bool_]:
     return found
 
 
-def _noise(
-    shape: tuple[int, int], period: int, rng: np.random.Generator
-) -> NDArray[np.float32]:
+def _noise(shape: tuple[int, ...], period: int, rng: np.random.Generator) -> NDArray[np.float32]:
     """Smooth noise in about -1..1 whose bumps are ``period`` pixels wide."""
     coarse = rng.uniform(-1, 1, (shape[0] // period + 3, shape[1] // period + 3))
     zoomed = ndimage.zoom(coarse.astype(np.float32), period, order=1)

@@ -70,7 +70,7 @@ def load_model(path: Path) -> Model:
             with np.load(path, allow_pickle=False) as archive:
                 vertices, faces = archive["vertices"], archive["faces"]
         else:
-            mesh = trimesh.load(path, force="mesh", process=False)
+            mesh = trimesh.load_mesh(path, process=False)
             vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     except (OSError, ValueError, KeyError, TypeError, NotImplementedError) as error:
         raise LampblackError(f"{path} cannot be read as a mesh.", details=str(error)) from error

@@ -41,9 +41,7 @@ class TileSource:
         return np.stack(channels)
 
 
-def _window(
-    image: NDArray[np.float32], row: int, column: int, fill: float
-) -> NDArray[np.float32]:
+def _window(image: NDArray[np.float32], row: int, column: int, fill: float) -> NDArray[np.float32]:
     """A tile-sized piece of ``image``, which may reach past its border."""
     piece = np.full((TILE, TILE), fill, np.float32)
     top, left = max(row, 0), max(column, 0)

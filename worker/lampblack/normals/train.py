@@ -22,7 +22,7 @@ import torch
 from safetensors.torch import load_file
 from torch import Tensor
 
-from .card import NetworkCard, replace_safetensors, save_network
+from .card import NetworkCard, save_network, write_tensors
 from .models import find_models
 from .network import build_network, normal_loss
 from .views import View, random_views
@@ -100,7 +100,9 @@ def train(
             loss.backward()  # type: ignore[no-untyped-call]
             torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
             optimiser.step()
-            _update_average(average, network, min(options.ema, progress.step / (progress.step + 10)))
+            _update_average(
+                average, network, min(options.ema, progress.step / (progress.step + 10))
+            )
             angle = mean_angle(predicted.detach().float(), truth, tiles[:, 3:4])
             progress.angle += (angle - progress.angle) * max(0.01, 1 / (progress.step + 1))
             progress.step += 1
@@ -143,7 +145,7 @@ class TrainingState:
         named |= {f"average.{n}": t for n, t in self._average.state_dict().items()}
         where = torch.tensor([progress.step, progress.seconds, progress.angle], dtype=torch.float64)
         tensors = {n: t.contiguous().clone() for n, t in (named | moments).items()}
-        replace_safetensors(self._tensors, tensors | {"progress": where})
+        write_tensors(self._tensors, tensors | {"progress": where})
         training = {"steps": progress.step, "minutes": round(progress.seconds / 60, 1)}
         training |= {"batch": options.batch, "seed": options.seed}
         save_network(
@@ -199,9 +201,7 @@ def _refill(reservoir: list[View], views: Queue[View], batch: int) -> None:
             reservoir.pop(0)
 
 
-def _batch(
-    reservoir: list[View], size: int, rng: np.random.Generator
-) -> tuple[Tensor, Tensor]:
+def _batch(reservoir: list[View], size: int, rng: np.random.Generator) -> tuple[Tensor, Tensor]:
     cut = [reservoir[rng.integers(len(reservoir))].tile(rng) for _ in range(size)]
     tiles = torch.from_numpy(np.stack([tile for tile, _ in cut]))
     truth = torch.from_numpy(np.stack([normals for _, normals in cut]))

@@ -26,9 +26,7 @@ class View:
     mask: NDArray[np.bool_]
     normals: NDArray[np.int8]
 
-    def tile(
-        self, rng: np.random.Generator
-    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    def tile(self, rng: np.random.Generator) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """A random tile about a figure pixel, mirrored half of the time.
 
         Returns:
@@ -45,9 +43,9 @@ class View:
         top, left = max(row, 0), max(column, 0)
         bottom, right = min(row + TILE, height), min(column + TILE, width)
         truth = np.zeros((3, TILE, TILE), np.float32)
-        truth[:, top - row : bottom - row, left - column : right - column] = (
-            self.normals[top:bottom, left:right].transpose(2, 0, 1) / np.float32(127)
-        )
+        truth[:, top - row : bottom - row, left - column : right - column] = self.normals[
+            top:bottom, left:right
+        ].transpose(2, 0, 1) / np.float32(127)
         tile = TileSource(self.lines / np.float32(255), self.mask).cut(row, column)
         if rng.random() < 0.5:
             tile, truth = tile[:, :, ::-1].copy(), truth[:, :, ::-1].copy()
@@ -55,9 +53,7 @@ class View:
         return tile, truth
 
 
-def random_views(
-    models: list[Path], seed: int, figure_px: tuple[int, int]
-) -> Iterator[View]:
+def random_views(models: list[Path], seed: int, figure_px: tuple[int, int]) -> Iterator[View]:
     """Views without end. Sources are drawn by the square root of their size, so that the many
     soldiers of one game do not drown the few cartoon figures of another."""
     rng = np.random.default_rng(seed)

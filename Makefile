@@ -1,0 +1,29 @@
+# make demo: light the example animation. make test: check everything. Both install first.
+.PHONY: demo test check format install clean
+
+BIN := .venv/bin
+OUT ?= out/demo
+
+demo: install
+	$(BIN)/lampblack render examples/animation -o $(OUT) --scene examples/animation.scene.json \
+	    --quality medium --contact-sheet $(OUT)/../demo.png
+	@echo "Lit frames:    $(abspath $(OUT))"
+	@echo "Contact sheet: $(abspath $(OUT)/../demo.png)"
+
+test: check
+	$(BIN)/pytest
+
+check: install
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+format: install
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+install:
+	@scripts/install.sh
+
+clean:
+	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache

@@ -1,0 +1,45 @@
+#!/bin/sh
+# Install what Lampblack needs and this machine lacks: Cycles' system libraries (Debian), and
+# a virtual environment in .venv. Run again at will: what is there is left alone.
+set -eu
+cd "$(dirname "$0")/.."
+
+LIBRARIES="libgl1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxt6"
+PYTHON=${PYTHON:-$(command -v python3.11 || command -v python3 || true)}
+STAMP=.venv/installed
+
+fail() {
+    echo "error: $1" >&2
+    echo "  $2" >&2
+    exit 1
+}
+
+[ -n "$PYTHON" ] || fail "Python is missing." "On Debian 12: apt-get install python3 python3-venv"
+"$PYTHON" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' ||
+    fail "$PYTHON is not Python 3.11, which Blender's module needs." "Name one: make PYTHON=/path/to/python3.11"
+
+wanted=$(cat pyproject.toml scripts/install.sh | cksum)
+[ -f "$STAMP" ] && [ "$(cat "$STAMP")" = "$wanted" ] && exit 0
+
+if command -v dpkg-query >/dev/null; then
+    missing=""
+    for package in $LIBRARIES; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+            missing="$missing $package"
+    done
+    if [ -n "$missing" ]; then
+        as_root=""
+        if [ "$(id -u)" != 0 ]; then
+            command -v sudo >/dev/null || fail "System libraries are missing." "As root: apt-get install$missing"
+            as_root=sudo
+        fi
+        # A list of packages may be old or not there yet: fetch it only when it is needed.
+        $as_root apt-get install -y --no-install-recommends $missing ||
+            { $as_root apt-get update && $as_root apt-get install -y --no-install-recommends $missing; }
+    fi
+fi
+
+"$PYTHON" -m venv .venv ||
+    fail "The virtual environment could not be made." "On Debian 12: apt-get install python3-venv"
+.venv/bin/pip install --disable-pip-version-check -e '.[dev]'
+echo "$wanted" >"$STAMP"

@@ -1,0 +1,186 @@
+"""Prediction, its peers and its ground truth, against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+from lampblack.normals.card import NetworkCard
+from lampblack.normals.evaluate import flat_normals
+from lampblack.normals.gbuffer import MARGIN, trace, view_rotation
+from lampblack.normals.linework import Hand, draw_lines
+from lampblack.normals.models import Model
+from lampblack.normals.network import DILATIONS, DilatedUNet, build_network, normal_loss
+from lampblack.normals.predict import NormalPredictor
+from lampblack.normals.silhouette import inflated_normals, lumo_normals
+from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
+from numpy.typing import NDArray
+
+Image = NDArray[np.float32]
+
+
+def ball(size: int, radius: float) -> tuple[NDArray[np.bool_], Image]:
+    """Mask and exact normals of a sphere in the middle of the picture."""
+    rows, columns = np.mgrid[0:size, 0:size] + 0.5 - size / 2
+    x, y = columns / radius, -rows / radius
+    mask = np.hypot(x, y) < 1
+    z = np.sqrt(np.maximum(1 - x * x - y * y, 0))
+    return mask, (np.stack([x, y, z], axis=2) * mask[..., None]).astype(np.float32)
+
+
+def angles(a: Image, b: Image) -> Image:
+    return np.degrees(np.arccos(np.clip(np.einsum("...c,...c->...", a, b), -1, 1)))
+
+
+def sphere_model() -> Model:
+    mesh = trimesh.creation.icosphere(subdivisions=4)
+    vertices = mesh.vertices.astype(np.float32)
+    return Model("sphere", vertices, mesh.faces.astype(np.int32), vertices[mesh.faces], False)
+
+
+def quiet_network(seed: int = 0) -> NormalPredictor:
+    """An untrained predictor: enough for all that does not depend on the weights."""
+    torch.manual_seed(seed)
+    return NormalPredictor(build_network(NetworkCard()), NetworkCard())
+
+
+def test_trace_of_a_sphere_is_exact() -> None:
+    view = trace(sphere_model(), view_rotation(30, 20), 200)
+    size = 200 + 2 * MARGIN
+    mask, truth = ball(size, 100.0)
+    assert view.mask.shape == (size, size)
+    assert (view.mask != mask).mean() < 0.005
+    both = view.mask & mask & (truth[..., 2] > 0.15)
+    assert angles(view.normals, truth)[both].max() < 1.0
+    depth = view.depth - view.depth.max()
+    assert np.abs(depth - 100 * (truth[..., 2] - 1))[both].max() < 0.6
+
+
+def test_views_turn_the_way_the_angles_say() -> None:
+    nose = np.array([0.0, 0.0, 1.0])
+    assert np.allclose(view_rotation(0, 0) @ nose, nose)
+    assert np.allclose(view_rotation(90, 0) @ nose, [-1, 0, 0], atol=1e-6)
+    assert (view_rotation(0, 30) @ nose)[1] < 0  # seen from above, the nose sinks
+
+
+def test_line_follows_the_silhouette_of_a_sphere_only() -> None:
+    view = trace(sphere_model(), view_rotation(0, 0), 200)
+    lines = draw_lines(view, Hand(width=3), np.random.default_rng(0))
+    rim = view.mask & (view.normals[..., 2] < 0.3)
+    assert lines[~view.mask].max() == 0
+    assert lines[rim].mean() > 0.3
+    assert lines[view.mask & (view.normals[..., 2] > 0.5)].max() == 0
+
+
+@pytest.mark.parametrize("peer", [lumo_normals, inflated_normals])
+def test_peers_make_a_disk_a_hemisphere(peer: object) -> None:
+    mask, truth = ball(200, 80.0)
+    assert callable(peer)
+    found = peer(mask)
+    assert np.allclose(np.linalg.norm(found[mask], axis=1), 1, atol=1e-5)
+    assert not found[~mask].any()
+    assert angles(found, truth)[mask].mean() < 4.0
+    assert angles(flat_normals(mask), truth)[mask].mean() > 30
+
+
+def test_tile_holds_three_scales_about_one_centre() -> None:
+    rng = np.random.default_rng(1)
+    lines = rng.random((700, 600)).astype(np.float32)
+    mask = np.ones(lines.shape, bool)
+    tile = TileSource(lines, mask).cut(200, 160)
+    assert np.array_equal(tile[0], lines[200:456, 160:416])
+    assert np.allclose(tile[1, 64:192, 64:192], tile[0].reshape(128, 2, 128, 2).mean((1, 3)))
+    assert np.allclose(tile[2, 96:160, 96:160], tile[0].reshape(64, 4, 64, 4).mean((1, 3)))
+    assert (tile[3] == 1).all()
+
+
+def test_tile_past_the_border_is_outside() -> None:
+    tile = TileSource(np.ones((40, 40), np.float32), np.ones((40, 40), bool)).cut(-128, -128)
+    assert (tile[0, :128] == OUTSIDE).all()
+    assert (tile[0, 128:168, 128:168] == 1).all()
+    assert tile[3].sum() == 40 * 40
+
+
+@pytest.mark.parametrize("grids", [1, 3, 20])
+def test_every_grid_covers_every_pixel_once(grids: int) -> None:
+    for grid in diagonal_grids(500, 700, grids):
+        seen = np.zeros((500 + 2 * TILE, 700 + 2 * TILE), int)
+        for row, column in grid:
+            seen[row + TILE : row + 2 * TILE, column + TILE : column + 2 * TILE] += 1
+        assert (seen[TILE : TILE + 500, TILE : TILE + 700] == 1).all()
+
+
+def test_network_is_the_papers_shape() -> None:
+    network = DilatedUNet()
+    assert [layer.dilation[0] for layer in network.dilated] == list(DILATIONS)  # type: ignore[index,union-attr]
+    assert len(network.dilated) == 5
+    assert network.leaky.negative_slope == 0.3
+    tiles = torch.rand(2, 4, TILE, TILE)
+    tiles[:, 3] = (tiles[:, 3] > 0.5).float()
+    out = network(tiles)
+    assert out.shape == (2, 3, TILE, TILE)
+    assert out.abs().max() <= 1
+    assert not (out * (1 - tiles[:, 3:4])).any()
+    normal_loss(out, out.detach() + 0.1, tiles[:, 3:4]).backward()  # type: ignore[no-untyped-call]
+    assert all(p.grad is not None and p.grad.abs().sum() > 0 for p in network.parameters())
+
+
+def test_loss_is_one_minus_cosine_for_unit_normals() -> None:
+    a = torch.nn.functional.normalize(torch.randn(1, 3, 8, 8), dim=1)
+    b = torch.nn.functional.normalize(torch.randn(1, 3, 8, 8), dim=1)
+    mask = torch.zeros(1, 1, 8, 8)
+    mask[..., :4] = 1
+    expected = (1 - (a * b).sum(dim=1))[..., :4].mean()
+    assert normal_loss(a, b, mask).item() == pytest.approx(expected.item(), rel=1e-5)
+
+
+def test_prediction_is_unit_inside_and_faces_the_viewer() -> None:
+    mask, _ = ball(300, 120.0)
+    lines = np.zeros(mask.shape, np.float32)
+    found = quiet_network().predict(lines, mask, grids=2)
+    assert found.shape == (300, 300, 3)
+    assert found.dtype == np.float32
+    assert np.allclose(np.linalg.norm(found[mask], axis=1), 1, atol=1e-5)
+    assert found[mask][:, 2].min() > 0
+    assert not found[~mask].any()
+
+
+@pytest.mark.parametrize("size", [300, 900])
+def test_a_shifted_figure_keeps_its_normals_to_the_bit(size: int) -> None:
+    """Grids are anchored to the figure: no flicker under translation."""
+    small, _ = ball(size, size * 0.4)
+    mask = np.zeros((size + 60, size + 60), bool)
+    moved = mask.copy()
+    mask[:size, :size], moved[37 : 37 + size, 11 : 11 + size] = small, small
+    lines = np.random.default_rng(0).random((size, size)).astype(np.float32) * small
+    drawn, drawn_moved = (np.zeros(mask.shape, np.float32) for _ in range(2))
+    drawn[:size, :size], drawn_moved[37 : 37 + size, 11 : 11 + size] = lines, lines
+    predictor = quiet_network()
+    here = predictor.predict(drawn, mask, grids=2)[:size, :size]
+    there = predictor.predict(drawn_moved, moved, grids=2)[37 : 37 + size, 11 : 11 + size]
+    assert np.array_equal(here, there)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 40), (2000, 3), (5, 5)])
+def test_specks_and_slivers_are_predicted(shape: tuple[int, int]) -> None:
+    mask = np.ones(shape, bool)
+    found = quiet_network().predict(np.ones(shape, np.float32), mask, grids=1)
+    assert np.allclose(np.linalg.norm(found, axis=2), 1, atol=1e-5)
+
+
+def test_nothing_drawn_predicts_nothing() -> None:
+    mask = np.zeros((30, 20), bool)
+    assert not quiet_network().predict(np.zeros((30, 20), np.float32), mask).any()
+    with pytest.raises(ValueError, match="grids"):
+        quiet_network().predict(np.zeros((30, 20), np.float32), mask, grids=0)
+    with pytest.raises(ValueError, match="equal"):
+        quiet_network().predict(np.zeros((30, 21), np.float32), mask)
+
+
+def test_shipped_network_rounds_a_ball() -> None:
+    """The weights that ship know at least what a ball is, better than a flat card."""
+    mask, truth = ball(420, 190.0)
+    rim = mask & ~np.asarray(truth[..., 2] > 0.12)
+    found = NormalPredictor().predict(rim.astype(np.float32), mask)
+    assert angles(found, truth)[mask].mean() < 20

@@ -1,0 +1,1 @@
+"""Speed, measured: what ``lampblack bench`` runs. Nothing here is asserted by a test."""

@@ -1,0 +1,5 @@
+"""The command line: the same pipeline without Pencil2D."""
+
+from .app import main
+
+__all__ = ["main"]

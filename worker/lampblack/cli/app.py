@@ -1,0 +1,42 @@
+"""The commands of ``lampblack``."""
+
+from __future__ import annotations
+
+import typer
+
+from .. import __version__
+from .bench import bench
+from .console import for_people
+from .doctor import doctor
+from .learn import evaluate, train
+from .render import render
+from .stages import mesh, normals, palette, scene
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Light hand-drawn animation with real global illumination.",
+)
+for command in (render, normals, mesh, palette, scene, train, evaluate, bench, doctor):
+    app.command()(command)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: bool = typer.Option(False, "--version", callback=_version, is_eager=True),
+) -> None:
+    """Light hand-drawn animation with real global illumination."""
+
+
+def main() -> None:
+    """Entry point of the ``lampblack`` command."""
+    with for_people():
+        app()

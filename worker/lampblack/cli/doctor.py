@@ -1,0 +1,86 @@
+"""``lampblack doctor``: is everything there, and does it work here?"""
+
+from __future__ import annotations
+
+import os
+import platform
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import typer
+
+from .. import __version__
+from ..errors import LampblackError
+from .console import EXIT_FAILED, print_error
+
+
+def doctor() -> None:
+    """Check this installation part by part, ending with a tiny render.
+
+    Example: lampblack doctor
+    """
+    checks: dict[str, Callable[[], str]] = {
+        "lampblack": lambda: f"{__version__}, Python {platform.python_version()}",
+        "machine": _machine,
+        "temporary folder": _temporary_folder,
+        "network": _network,
+        "Cycles": _cycles,
+    }
+    failed = False
+    for name, check in checks.items():
+        try:
+            sys.stdout.write(f"{name}: {check()}\n")
+        except LampblackError as error:
+            failed = True
+            print_error(error, f"{name}: ")
+        sys.stdout.flush()
+    if failed:
+        raise typer.Exit(EXIT_FAILED)
+
+
+def _machine() -> str:
+    cores = len(os.sched_getaffinity(0))
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return f"{platform.platform()}, {cores} cores, {memory:.0f} GiB"
+
+
+def _temporary_folder() -> str:
+    folder = tempfile.gettempdir()
+    free = shutil.disk_usage(folder).free / 2**30
+    if free < 0.5:
+        raise LampblackError(f"{folder} has {free:.1f} GiB left.", "Make room, or set TMPDIR.")
+    return f"{folder}, {free:.0f} GiB free"
+
+
+def _network() -> str:
+    from ..normals.card import shipped_weights
+    from ..normals.predict import NormalPredictor
+
+    predictor = NormalPredictor()
+    mask = np.zeros((64, 64), bool)
+    mask[16:48, 16:48] = True
+    found = predictor.predict(np.zeros((64, 64), np.float32), mask, grids=1)
+    if not np.isfinite(found).all():
+        raise LampblackError("The network predicts numbers that are not finite.", "Reinstall.")
+    size = Path(shipped_weights()).stat().st_size / 2**20
+    return f"{predictor.card.architecture}, {size:.1f} MiB of weights"
+
+
+def _cycles() -> str:
+    from ..pipeline import Pipeline
+    from ..cache import ArrayCache
+    from ..drawing import take_apart
+    from ..scene import default_scene
+
+    rows, columns = np.mgrid[-1:1:64j, -1:1:64j]
+    picture = np.zeros((64, 64, 4), np.uint8)
+    picture[np.hypot(rows, columns) < 0.8] = (230, 120, 40, 255)
+    with tempfile.TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
+        lit = pipeline.render(take_apart(picture), default_scene(64, 64))
+    if not lit[..., :3].any():
+        raise LampblackError("Cycles rendered black.", "Reinstall bpy.")
+    return "renders"

@@ -1,0 +1,202 @@
+"""``lampblack render``: drawings in, lit drawings out."""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from numpy.typing import NDArray
+
+from ..cache import digest
+from ..drawing import (
+    Frame,
+    find_frames,
+    load_picture,
+    parse_frames,
+    save_picture,
+    select_frames,
+    take_apart,
+)
+from ..drawing.contact_sheet import contact_sheet
+from ..errors import LampblackError, LampblackWarning, NothingDrawnError, OutputError
+from ..normals.predict import DEFAULT_GRIDS
+from ..pipeline import Pipeline, PipelineOptions
+from ..scene import Canvas, Floor, Scene, default_scene
+from .console import EXIT_FAILED, EXIT_UNLIT, console, print_error, progress_bar
+from .options import (
+    GridsOption,
+    InkOption,
+    MaskOption,
+    QualityName,
+    Solver,
+    SolverOption,
+    lights_at,
+    open_cache,
+    read_scene,
+)
+
+
+def render(
+    inputs: Annotated[
+        list[str], typer.Argument(metavar="INPUT...", help="PNG, folder, or walk.%04d.png.")
+    ],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Output folder.")],
+    scene: Annotated[Path | None, typer.Option("--scene", help="Scene file.")] = None,
+    light: Annotated[
+        list[str] | None,
+        typer.Option("--light", metavar="X,Y,Z", help="A white light, canvas pixels."),
+    ] = None,
+    floor: Annotated[
+        float | None, typer.Option("--floor", metavar="Y", help="Shadow catcher at this line.")
+    ] = None,
+    quality: Annotated[
+        QualityName | None, typer.Option("--quality", help="Default: the scene's, or low.")
+    ] = None,
+    frames: Annotated[
+        str | None, typer.Option("--frames", help="Frame numbers, such as 1-20x2,25.")
+    ] = None,
+    sheet: Annotated[
+        Path | None,
+        typer.Option("--contact-sheet", metavar="PNG", help="Drawings above, lit below."),
+    ] = None,
+    mask: MaskOption = None,
+    ink: InkOption = None,
+    grids: GridsOption = DEFAULT_GRIDS,
+    solver: SolverOption = Solver.DIRECT,
+) -> None:
+    """Light drawings; each becomes a PNG of its own name and size in DIR.
+
+    Exit code 1: a frame failed (the others are there). 3: a blank frame was passed through
+    unlit.
+
+    Example: lampblack render walk/ -o lit/ --light 250,150,400 --quality final
+    """
+    found = find_frames(inputs)
+    if frames is not None:
+        found = select_frames(found, parse_frames(frames))
+    _prepare_output(output, found)
+    settings = None if scene is None else read_scene(scene)
+    with Pipeline(open_cache(), PipelineOptions(grids, solver.value)) as pipeline:
+        job = _Job(pipeline, output, len(found) == 1, {})
+        job.mask = None if mask is None else load_picture(mask)
+        job.ink = None if ink is None else load_picture(ink)
+        failed: list[Frame] = []
+        with progress_bar() as bar:
+            task = bar.add_task("Lighting", total=len(found))
+            for frame in found:
+                try:
+                    picture = load_picture(frame.path)
+                    height, width = picture.shape[:2]
+                    if settings is None:
+                        settings = default_scene(width, height)
+                    if light:
+                        at = lights_at(light, size=0.2 * max(width, height))
+                        settings = replace(settings, lights=at)
+                    if floor is not None:
+                        settings = replace(settings, floor=Floor(floor))
+                    if quality is not None:
+                        settings = replace(settings, quality=quality.value)
+                    job.light(frame, picture, settings)
+                except OutputError:
+                    raise
+                except LampblackError as error:
+                    print_error(error, f"{frame.path.name}: ")
+                    failed.append(frame)
+                bar.advance(task)
+    if sheet is not None:
+        _write_sheet(sheet, [frame for frame in found if frame not in failed], output)
+    _summarise(job, failed, len(found), output)
+
+
+@dataclass
+class _Job:
+    """What the frames of one call share; ``lit`` maps a drawing's digest to its result."""
+
+    pipeline: Pipeline
+    output: Path
+    single: bool
+    lit: dict[str, Path]
+    mask: NDArray[np.uint8] | None = None
+    ink: NDArray[np.uint8] | None = None
+    unlit: int = 0
+
+    def light(self, frame: Frame, picture: NDArray[np.uint8], scene: Scene) -> None:
+        """Light one frame and write it; a drawing met before is only copied."""
+        target = self.output / frame.path.name
+        height, width = picture.shape[:2]
+        if (scene.canvas.width, scene.canvas.height) != (width, height):
+            warnings.warn(
+                f"{frame.path.name} is {width} x {height} pixels, the scene was made for "
+                f"{scene.canvas.width} x {scene.canvas.height}; lights keep their pixel positions.",
+                LampblackWarning,
+                stacklevel=2,
+            )
+            scene = replace(scene, canvas=Canvas(width, height))
+        key = digest(picture, scene)
+        earlier = self.lit.get(key)
+        if earlier is not None:
+            save_picture(target, load_picture(earlier))
+            return
+        try:
+            drawing = take_apart(picture, mask=self.mask, ink=self.ink)
+        except NothingDrawnError as error:
+            if self.single:
+                raise
+            warnings.warn(
+                f"{frame.path.name}: {error.what} Passed through unlit.",
+                LampblackWarning,
+                stacklevel=2,
+            )
+            save_picture(target, picture)
+            self.unlit += 1
+            return
+        save_picture(target, self.pipeline.render(drawing, scene))
+        self.lit[key] = target
+
+
+def _prepare_output(output: Path, frames: list[Frame]) -> None:
+    """Refuse, before any work, an output folder that would lose something."""
+    twice = [name for name, n in Counter(f.path.name for f in frames).items() if n > 1]
+    if twice:
+        raise LampblackError(
+            f"Two inputs are named {twice[0]}: one result would replace the other.",
+            "Render them into different folders.",
+        )
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+        folder = output.resolve()
+    except OSError as error:
+        raise LampblackError(
+            f"The output folder {output} cannot be made.", "Choose another.", str(error)
+        ) from error
+    if any(frame.path.resolve().parent == folder for frame in frames):
+        raise LampblackError(
+            f"{output} holds the drawings themselves; they would be replaced.",
+            "Choose another output folder.",
+        )
+
+
+def _write_sheet(path: Path, frames: list[Frame], output: Path) -> None:
+    """Drawings above, lit below: at most 12 of them, evenly chosen."""
+    if not frames:
+        return
+    chosen = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, 12).round().astype(int))]
+    drawn = [load_picture(frame.path) for frame in chosen]
+    lit = [load_picture(output / frame.path.name) for frame in chosen]
+    save_picture(path, contact_sheet([drawn, lit]))
+
+
+def _summarise(job: _Job, failed: list[Frame], total: int, output: Path) -> None:
+    done = total - len(failed)
+    console.print(f"{done} of {total} frames are in {output}.", markup=False)
+    if failed:
+        names = ", ".join(frame.path.name for frame in failed)
+        console.print(f"Failed: {names}", markup=False, style="bold red")
+        raise typer.Exit(EXIT_FAILED)
+    if job.unlit:
+        raise typer.Exit(EXIT_UNLIT)

@@ -1,0 +1,146 @@
+"""The one way from a drawing to a lit drawing; command line and window drive the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from types import TracebackType
+from typing import Literal, Self
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from .cache import ArrayCache, digest
+from .composite import composite
+from .drawing import Drawing
+from .normals.predict import DEFAULT_GRIDS, NormalPredictor
+from .render import QUALITIES, Passes, RenderChild, frame_request
+from .scene import Scene
+from .surface import Relief, build_relief, guided_filter, solve
+
+MAX_SURFACE_PX = 2048
+"""Longest side at which a surface is solved; larger pictures are lit at this size."""
+
+SolverName = Literal["direct", "adam"]
+
+
+@dataclass(frozen=True)
+class PipelineOptions:
+    """How surfaces are made, whatever the light: ``grids`` of tiles are averaged, and
+    ``solver`` inflates the normals."""
+
+    grids: int = DEFAULT_GRIDS
+    solver: SolverName = "direct"
+
+
+class Pipeline:
+    """Drawing -> normals -> surface -> passes -> picture, each kept while it holds.
+
+    Use as a context manager: it owns the render child. Nothing is loaded before it is needed.
+
+    Args:
+        cache: keeps normals and heights across runs.
+        options: how surfaces are made.
+    """
+
+    def __init__(self, cache: ArrayCache, options: PipelineOptions | None = None) -> None:
+        self._cache = cache
+        self.options = options or PipelineOptions()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if "child" in self.__dict__:
+            self.child.close()
+
+    @cached_property
+    def _predictor(self) -> NormalPredictor:
+        return NormalPredictor()
+
+    @cached_property
+    def child(self) -> RenderChild:
+        """The renderer, started when first needed."""
+        return RenderChild()
+
+    def warm_up(self) -> None:
+        """Load the network and start the renderer before the first drawing comes."""
+        self.child.start()
+        _ = self._predictor
+
+    def normals(
+        self, drawing: Drawing, progress: Callable[[float], None] = lambda share: None
+    ) -> NDArray[np.float32]:
+        """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask."""
+        key = digest(
+            "normals", self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
+        )
+        return self._cache.get(
+            key,
+            lambda: self._predictor.predict(
+                drawing.lines, drawing.mask, grids=self.options.grids, progress=progress
+            ),
+        )
+
+    def height(
+        self, drawing: Drawing, progress: Callable[[float], None] = lambda share: None
+    ) -> NDArray[np.float32]:
+        """(h, w) float32 height in canvas pixels; the drawing's size, or capped below it."""
+        key = digest("height", self._predictor.identity, self.options, drawing.lines, drawing.mask)
+        return self._cache.get(key, lambda: self._inflate(drawing, progress))
+
+    def _inflate(self, drawing: Drawing, progress: Callable[[float], None]) -> NDArray[np.float32]:
+        normals, mask = self.normals(drawing, progress), drawing.mask
+        step = surface_step(drawing)
+        if step > 1:
+            normals, mask = _shrink_normals(normals, mask, step)
+        height = solve(normals, mask, solver=self.options.solver)
+        return guided_filter(height, normals, mask) * np.float32(step)
+
+    def relief(self, drawing: Drawing, *, relief_scale: float = 1.0, stride: int = 1) -> Relief:
+        """The figure's closed mesh in canvas pixels, one vertex every ``stride`` pixels."""
+        height, mask = self.height(drawing), drawing.mask
+        step = surface_step(drawing)
+        if step > 1:
+            mask = mask[step // 2 :: step, step // 2 :: step][: height.shape[0], : height.shape[1]]
+        relief = build_relief(
+            height / np.float32(step), mask, stride=stride, relief_scale=relief_scale
+        )
+        return replace(relief, vertices=relief.vertices * np.float32(step))
+
+    def light(self, drawing: Drawing, scene: Scene) -> Passes:
+        """Trace every light of ``scene`` over the drawing's relief."""
+        relief = self.relief(
+            drawing,
+            relief_scale=scene.relief_scale,
+            stride=QUALITIES[scene.quality].mesh_stride,
+        )
+        return self.child.render(frame_request(drawing, relief, scene))
+
+    def render(self, drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
+        """(H, W, 4) uint8, sRGB, straight alpha: the drawing, lit."""
+        return composite(drawing, self.light(drawing, scene), scene)
+
+
+def surface_step(drawing: Drawing) -> int:
+    """Canvas pixels per pixel of the surface: 1 up to ``MAX_SURFACE_PX``."""
+    return -(-max(drawing.size) // MAX_SURFACE_PX)
+
+
+def _shrink_normals(
+    normals: NDArray[np.float32], mask: NDArray[np.bool_], step: int
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """Average blocks of ``step`` pixels; a block belongs to the figure if its middle does."""
+    rows, columns = mask.shape[0] // step, mask.shape[1] // step
+    planes = torch.from_numpy(normals[: rows * step, : columns * step]).permute(2, 0, 1)
+    pooled = torch.nn.functional.avg_pool2d(planes, step).permute(1, 2, 0).numpy()
+    middle = mask[step // 2 :: step, step // 2 :: step][:rows, :columns]
+    length = np.maximum(np.linalg.norm(pooled, axis=2, keepdims=True), 1e-6)
+    return (pooled / length * middle[..., None]).astype(np.float32), middle
