@@ -31,12 +31,12 @@ HOP = (
     ),
     Pose(  # takes off
         hop=66, squash=1.06, lean=8, lantern_arm=(196, 238), free_arm=(-4, -58), palm_out=True,
-        swing=9, tail=16, scarf=18, gaze=(-6, -10), smile=0.7,
+        swing=9, tail=16, scarf=40, gaze=(-6, -10), smile=0.7,
         feet=(Foot(6, 10, 22), Foot(-6, 16, 28)),
     ),
     Pose(  # waves at the top
         hop=128, squash=1.0, lean=10, lantern_arm=(200, 240), free_arm=(-14, -66), palm_out=True,
-        paw_turn=-10, swing=2, tail=-2, scarf=6, gaze=(4, 4), smile=1.2, hat_lift=10,
+        paw_turn=-10, swing=2, tail=-2, scarf=32, gaze=(4, 4), smile=1.2, hat_lift=10,
         feet=(Foot(-4, -14, -10), Foot(8, -6, 14)),
     ),
     Pose(  # comes down, hat last
@@ -45,12 +45,12 @@ HOP = (
         feet=(Foot(0, 10, 6), Foot(0, 4, -4)),
     ),
     Pose(  # lands
-        squash=0.87, lean=-6, lantern_arm=(186, 230), free_arm=(-4, -80), palm_out=True,
-        swing=-2, tail=8, scarf=12, eyes_shut=True, smile=0.8,
+        squash=0.87, lean=-6, lantern_arm=(186, 230), free_arm=(-2, -65), palm_out=True,
+        swing=-2, tail=8, scarf=30, eyes_shut=True, smile=0.8,
         feet=(Foot(-10), Foot(10)),
     ),
     Pose(  # settles
-        squash=1.03, lean=2, lantern_arm=(190, 231), free_arm=(18, 118), swing=8, tail=-4,
+        squash=1.03, lean=2, lantern_arm=(190, 231), free_arm=(27, 143), swing=8, tail=-4,
         scarf=5,
     ),
 )  # fmt: skip

@@ -63,7 +63,7 @@ def _legs(sheet: Sheet, pose: Pose) -> None:
     for side, foot in zip((-1, 1), pose.feet, strict=True):
         ankle = (side * 118 + foot.x, -92 + foot.y)
         hip, knee = np.array([side * 112, -190]), np.array([side * 114, -140])
-        sheet.tube(bezier(hip, knee, np.asarray(ankle)), [70, 62, 54], FUR, 6.5, root=0.0)
+        sheet.tube(bezier(hip, knee, np.asarray(ankle)), [60, 58, 52], FUR, 6.5, root=0.0)
         draw_boot(sheet, ankle, side, foot.turn)
 
 
@@ -111,14 +111,14 @@ def _free_arm(sheet: Sheet, pose: Pose) -> None:
         return points if pose.palm_out else points[::-1]
 
     paw = part(
-        [(-26, -42), (-6, -44), (26, -52), (66, -56), (84, -40), (72, -22), (72, -22), (100, -22),
-         (108, -2), (78, 8), (78, 8), (98, 12), (100, 32), (72, 44), (40, 50),
-         (14, 46), (-26, 42)]
+        [(-8, -44), (10, -47), (30, -53), (66, -56), (84, -40), (72, -22), (72, -22), (100, -22),
+         (108, -2), (78, 8), (78, 8), (98, 12), (100, 32), (72, 44), (40, 48),
+         (12, 45), (-8, 44)]
     )  # fmt: skip
     thumb = part([(2, -34), (14, -66), (40, -84), (56, -68), (46, -46), (34, -28)])
     for outline in (thumb, paw):
         sheet.fill(outline, FUR)
-        sheet.ink(outline, 6, (16, 16))
+        sheet.ink(outline, 6, (5, 5))
     for crease in ([(72, -22), (56, -19), (38, -22)], [(78, 8), (60, 10), (42, 6)]):
         sheet.ink(place([(x, thumb_side * y) for x, y in crease], wrist, turn), 4.4, (0, 18))
 
@@ -165,12 +165,12 @@ def _face(sheet: Sheet, pose: Pose) -> None:
     x = -22.0
     for side in (-1, 1):
         sheet.fill(ellipse(x + side * 160, -580, 36, 23), PINK, over=FUR)
-    muzzle = ellipse(x, -556, 118, 74)
+    muzzle = ellipse(x, -552, 118, 72)
     sheet.shape(muzzle, CREAM, 4.5)
     _mouth(sheet, x, pose.smile)
     nose = curve(
-        [(x, -624), (x + 32, -618), (x + 41, -600), (x + 21, -581), (x, -575), (x - 21, -581),
-         (x - 41, -600), (x - 32, -618)],
+        [(x, -634), (x + 32, -628), (x + 41, -610), (x + 21, -590), (x, -584), (x - 21, -590),
+         (x - 41, -610), (x - 32, -628)],
         closed=True,
     )  # fmt: skip
     sheet.shape(nose, BLACK, 5)
@@ -181,7 +181,7 @@ def _face(sheet: Sheet, pose: Pose) -> None:
 
 
 def _mouth(sheet: Sheet, x: float, smile: float) -> None:
-    sheet.ink(curve([(x, -578), (x, -548)]), 5)
+    sheet.ink(curve([(x, -586), (x, -548)]), 5)
     corner = 62 + 6 * smile
     lips = curve(
         [(x - corner, -560), (x - 36, -540), (x, -548), (x + 36, -540), (x + corner, -560)]
@@ -194,14 +194,14 @@ def _mouth(sheet: Sheet, x: float, smile: float) -> None:
                      (left, left_y)])  # fmt: skip
         sheet.fill(np.vstack([upper, jaw]), STRIPE)
         sheet.fill(ellipse(x, chin + 2, 30, 24 * smile), PINK, over=STRIPE)
-        sheet.ink(jaw, 5)
+        sheet.ink(jaw, 5, (6, 6))
     sheet.ink(lips, 5.5, (12, 12))
 
 
 def _eye(sheet: Sheet, x: float, pose: Pose) -> None:
     y = -660.0
     if pose.eyes_shut:
-        sheet.ink(curve([(x - 46, y + 14), (x, y - 22), (x + 46, y + 14)]), 9, (20, 20))
+        sheet.ink(curve([(x - 46, y + 14), (x, y - 22), (x + 46, y + 14)]), 10, (14, 14))
         return
     white = ellipse(x, y, 50, 62)
     sheet.fill(white, WHITE)
