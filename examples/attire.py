@@ -96,7 +96,7 @@ def draw_hat(sheet: Sheet, pose: Pose) -> None:
         ),
         at, turn,
     )  # fmt: skip
-    edge = curve([(-96, -18), (-50, -6), (0, -2), (50, -6), (96, -18)])
+    edge = curve([(-98, -30), (-50, -18), (0, -14), (50, -18), (98, -30)])
     band = place(
         np.vstack([edge, [(110, 30), (-110, 30)]]),
         at, turn,

@@ -169,11 +169,12 @@ def _face(sheet: Sheet, pose: Pose) -> None:
     sheet.shape(muzzle, CREAM, 4.5)
     _mouth(sheet, x, pose.smile)
     nose = curve(
-        [(x, -634), (x + 32, -628), (x + 41, -610), (x + 21, -590), (x, -584), (x - 21, -590),
-         (x - 41, -610), (x - 32, -628)],
+        [(x, -637), (x + 34, -631), (x + 44, -611), (x + 23, -588), (x, -582), (x - 23, -588),
+         (x - 44, -611), (x - 34, -631)],
         closed=True,
     )  # fmt: skip
-    sheet.shape(nose, BLACK, 5)
+    # No ink about black: the two could not be told apart.
+    sheet.fill(nose, BLACK)
     for side in (-1, 1):
         _eye(sheet, x + side * 93, pose)
         brow = [(x + side * 56, -734), (x + side * 94, -750), (x + side * 132, -730)]
@@ -207,5 +208,5 @@ def _eye(sheet: Sheet, x: float, pose: Pose) -> None:
     sheet.fill(white, WHITE)
     px, py = x + pose.gaze[0], y + pose.gaze[1]
     sheet.fill(ellipse(px, py, 30, 39), BLACK, over=WHITE)
-    sheet.fill(ellipse(px - 10, py - 15, 10, 12), WHITE)
+    sheet.fill(ellipse(px - 5, py - 13, 8, 10), WHITE)
     sheet.ink(white, 5.5, closed=True)
