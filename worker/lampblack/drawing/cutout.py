@@ -23,11 +23,13 @@ class Cutout:
         colour: (H, W, 3) uint8 sRGB, the figure's own colour, free of the paper's.
         coverage: (H, W) float32 in 0..1.
         mask: (H, W) bool, True inside.
+        grain: noise of the paper, in levels; 0 for art that never was on paper.
     """
 
     colour: Colours
     coverage: NDArray[np.float32]
     mask: Mask
+    grain: float = 0.0
 
 
 def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None) -> Cutout:
@@ -72,8 +74,21 @@ def _by_override(pixels: NDArray[np.uint8], inside: NDArray[np.float32]) -> Cuto
 def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
     alpha = pixels[..., 3].astype(np.float32) / 255
     if is_line_art(drawn):
-        return _cover_with_paper(pixels, ~outside_of(drawn, line_art=True), alpha)
+        return _cover_with_paper(pixels, _enclosed(drawn), alpha)
     return Cutout(pixels[..., :3].copy(), alpha, drawn)
+
+
+def _enclosed(drawn: Mask) -> Mask:
+    """The line and all it encloses."""
+    mask = ~outside_of(drawn, line_art=True)
+    if np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
+        warnings.warn(
+            "The outline is not closed, so there is nothing within the lines to light; "
+            "close its gaps, or give a mask.",
+            LampblackWarning,
+            stacklevel=2,
+        )
+    return mask
 
 
 def _cover_with_paper(pixels: NDArray[np.uint8], mask: Mask, edge: NDArray[np.float32]) -> Cutout:
@@ -95,17 +110,19 @@ def _over_white(pixels: NDArray[np.uint8]) -> Colours:
 
 
 def _from_paper(picture: Colours) -> Cutout:
-    paper, tolerance = _paper_of(picture)
+    paper, grain = _paper_of(picture)
+    tolerance = int(np.clip(8 + 2 * grain, 10, 48))
     difference = np.abs(picture.astype(np.int16) - paper).max(axis=2)
     drawn = _without_dust(difference > tolerance)
     if not drawn.any():
         raise DrawingError("The paper is blank.", "Choose a picture with a drawing on it.")
-    outside = outside_of(drawn, line_art=is_line_art(drawn))
-    return _lift(picture, paper, outside, difference, tolerance)
+    mask = _enclosed(drawn) if is_line_art(drawn) else ~outside_of(drawn, line_art=False)
+    colour, coverage = _lift(picture, paper, ~mask, difference, tolerance)
+    return Cutout(colour, coverage, coverage >= 0.5, grain)
 
 
-def _paper_of(picture: Colours) -> tuple[NDArray[np.int16], int]:
-    """The colour most of the border wears, and how far the paper's grain strays from it."""
+def _paper_of(picture: Colours) -> tuple[NDArray[np.int16], float]:
+    """The colour most of the border wears, and how many levels its grain strays from it."""
     border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]]).astype(
         np.int16
     )
@@ -121,8 +138,7 @@ def _paper_of(picture: Colours) -> tuple[NDArray[np.int16], int]:
             LampblackWarning,
             stacklevel=2,
         )
-    grain = float(np.percentile(near, 98)) if len(near) else 0.0
-    return paper, int(np.clip(8 + 2 * grain, 10, 48))
+    return paper, float(np.percentile(near, 98)) if len(near) else 0.0
 
 
 def _without_dust(drawn: Mask) -> Mask:
@@ -140,12 +156,16 @@ def _lift(
     outside: Mask,
     difference: NDArray[np.int16],
     tolerance: int,
-) -> Cutout:
+) -> tuple[Colours, NDArray[np.float32]]:
     """Solve pixel = coverage x figure + (1 - coverage) x paper along the figure's rim.
 
     The figure's colour there is taken from the pixel nearby that differs most from paper.
     """
-    rim = ndimage.binary_dilation(outside) & ndimage.binary_dilation(~outside, iterations=2)
+    edge = ~outside & ndimage.binary_dilation(outside)
+    # Soft edges are two pixels deep: behind the edge the colour still grows away from paper.
+    growing = difference > ndimage.maximum_filter(np.where(edge, difference, 0), 3)
+    behind = ~outside & ~edge & growing & ndimage.binary_dilation(edge)
+    rim = edge | behind | (outside & ndimage.binary_dilation(~outside, iterations=2))
     rows, columns = np.nonzero(rim)
     best = difference[rows, columns].astype(np.int32)
     figure = picture[rows, columns].astype(np.int16)
@@ -170,5 +190,4 @@ def _lift(
     solved = share > 1 / 255
     clean = paper + offset[solved] / share[solved, None]
     colour[rows[solved], columns[solved]] = np.clip(np.rint(clean), 0, 255).astype(np.uint8)
-    mask = coverage >= 0.5
-    return Cutout(colour, coverage, mask)
+    return colour, coverage

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from .cutout import Colours
-from .mask import Mask, figure_span
+from .mask import Mask, figure_span, is_line_art, regions_holding
 
 _HAIRLINE = 0.005
 _BRUSH = 0.02
@@ -35,7 +35,7 @@ def find_ink(colour: Colours, mask: Mask) -> Mask:
 
     Returns:
         (H, W) bool; nowhere True when the drawing has fewer lines than would go a quarter
-        of the way around it.
+        of the way around it; the whole figure when it is bare line that encloses nothing.
     """
     span = figure_span(mask)
     light = luma(colour)
@@ -45,10 +45,12 @@ def find_ink(colour: Colours, mask: Mask) -> Mask:
     main = _main_ink(colour, _valleys(light, mask, brush) | lines)
     if main is not None:
         alike = mask & (np.abs(colour.astype(np.int16) - main).max(axis=2) <= _SAME_INK)
-        lines |= alike & ~_wide_parts(alike, brush)
-    lines = _without_specks(lines)
+        lines = _without_specks(lines & ~alike | alike & ~_wide_parts(alike, brush), 8)
+        lines = _without_specks(lines, 2 * hairline) | regions_holding(lines, alike & lines)
     outline = np.count_nonzero(mask & ~ndimage.binary_erosion(mask))
-    return lines if _length(lines) > 0.25 * outline else np.zeros_like(lines)
+    if _length(lines) > 0.25 * outline:
+        return lines
+    return mask.copy() if is_line_art(mask) else np.zeros_like(mask)
 
 
 def luma(colour: Colours) -> NDArray[np.uint8]:
@@ -91,20 +93,20 @@ def _wide_parts(area: Mask, widest: int) -> Mask:
     usual = float(np.median(ridge))
     radius = min(max(2.5, 1.6 * usual), widest)
     wide = depth > radius
-    parts, count = ndimage.label(wide)
-    widths = ndimage.maximum(depth, parts, np.arange(count + 1))
-    really = np.asarray(widths) > min(max(4.0, 2.5 * usual), widest)
-    really[0] = False
-    core: Mask = really[parts]
+    core = regions_holding(wide, depth > min(max(4.0, 2.8 * usual), widest))
     if not core.any():
         return core
     grown = ndimage.distance_transform_edt(~core) < radius + 2.5
-    return np.asarray(area & grown)
+    wide = area & grown
+    # The ball does not reach into corners; what it leaves there is no line.
+    rest = area & ~wide
+    corners = rest & ~_without_specks(rest, round(4 * usual**2))
+    return regions_holding(wide | corners, wide)
 
 
-def _without_specks(lines: Mask) -> Mask:
+def _without_specks(lines: Mask, smallest: int) -> Mask:
     regions, count = ndimage.label(lines, np.ones((3, 3)))
-    keep = np.bincount(regions.ravel(), minlength=count + 1) >= 8
+    keep = np.bincount(regions.ravel(), minlength=count + 1) >= smallest
     keep[0] = False
     return np.asarray(keep[regions])
 

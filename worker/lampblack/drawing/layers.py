@@ -12,6 +12,9 @@ from .cutout import Colours, Cutout
 from .ink import luma
 from .mask import Mask
 
+_ALIKE = 4
+"""Levels of luma between two pixels of the same fill."""
+
 
 @dataclass(frozen=True)
 class Layers:
@@ -45,9 +48,7 @@ def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = No
         given: (H, W) float32, the ink's coverage where the artist has painted it.
     """
     colour, mask = cutout.colour, cutout.mask
-    around = np.ones((3, 3))
-    touched = ndimage.binary_dilation(lines, around)
-    touched |= ~mask & ndimage.binary_dilation(touched, around)
+    touched = ndimage.maximum_filter(lines, 5) & (cutout.coverage > 0)
     fill = _continue_fill(cutout, touched, lines)
     rows, columns = np.nonzero(touched if given is None else given > 0)
     pixel = colour[rows, columns].astype(np.float32) / 255
@@ -75,10 +76,12 @@ def _continue_fill(cutout: Cutout, touched: Mask, lines: Mask) -> Colours:
     """The fill's colours, carried on from the nearest pixel that ink does not touch."""
     solid = cutout.mask & (cutout.coverage >= 0.99 * cutout.coverage.max())
     sure = solid & ~touched
-    # Between two close lines no pixel is free of ink; the lightest there is nearest to it.
+    # Between two close lines every pixel is near ink; the lightest there, if several agree,
+    # are free of it.
     light = np.where(solid & ~lines, luma(cutout.colour), np.uint8(0))
-    lightest = (light > 0) & (light >= ndimage.maximum_filter(light, 5))
-    sure |= lightest & ~ndimage.binary_dilation(sure, iterations=3)
+    lightest = (light > 0) & (light >= ndimage.maximum_filter(light, 5) - _ALIKE)
+    agreeing = ndimage.uniform_filter(lightest.astype(np.float32), 3) > 2.5 / 9
+    sure |= lightest & agreeing & ~ndimage.maximum_filter(sure, 5)
     if not sure.any():
         return np.full_like(cutout.colour, 255)
     rows, columns = _nearest(sure)

@@ -6,6 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from ..errors import DrawingError
 from .cutout import Cutout, cut_out
@@ -18,6 +19,8 @@ from .mask import ink_from_picture, mask_from_picture
 from .palette import find_palette
 
 _MARGIN = 8
+_CLEAN = 2.0
+"""Levels of grain above which a scan's flat colours are read from a blurred copy."""
 
 Sample = TypeVar("Sample", bound=np.generic)
 
@@ -55,13 +58,16 @@ def take_apart(
 
     whole = cut_out(pixels, inside)
     window = _window(whole)
-    figure = Cutout(whole.colour[window], whole.coverage[window], whole.mask[window])
+    figure = Cutout(whole.colour[window], whole.coverage[window], whole.mask[window], whole.grain)
     if given is not None:
         given = np.where(figure.mask, given[window], np.float32(0)).astype(np.float32)
     lines = find_ink(figure.colour, figure.mask) if given is None else given >= 0.5
     layers = separate(figure, lines, given)
-    palette, labels = find_palette(layers.fill, figure.mask)
-    drawn = line_drawing(layers.ink, layers.fill, labels, figure.mask)
+    fill = layers.fill
+    if figure.grain > _CLEAN:
+        fill = ndimage.uniform_filter(fill, (5, 5, 0))
+    palette, labels = find_palette(fill, figure.mask)
+    drawn = line_drawing(layers.ink, fill, labels, figure.mask)
 
     return Drawing(
         pixels=pixels,
