@@ -57,18 +57,18 @@ HOP = (
 
 MATERIALS = {
     figure.FUR: Material(),
-    figure.CREAM: Material(glossy=True, gloss=0.25, roughness=0.5),
+    figure.CREAM: Material(glossy=True, gloss=0.1, roughness=0.5),
     figure.SCARF: Material(),
     figure.STRIPE: Material(),
-    figure.BRASS: Material(glossy=True, gloss=0.9, roughness=0.2),
+    figure.BRASS: Material(glossy=True, gloss=0.35, roughness=0.2),
     # The lantern shines of itself: left as drawn.
     figure.GLASS: Material(diffuse=False),
     figure.FLAME: Material(diffuse=False),
-    figure.BOOTS: Material(glossy=True, gloss=0.6, roughness=0.25),
+    figure.BOOTS: Material(glossy=True, gloss=0.14, roughness=0.2),
     figure.SOLES: Material(),
     figure.HAT: Material(),
     figure.PINK: Material(),
-    figure.WHITE: Material(glossy=True, gloss=0.4, roughness=0.15),
+    figure.WHITE: Material(glossy=True, gloss=0.2, roughness=0.15),
     figure.BLACK: Material(diffuse=False, glossy=True, gloss=0.8, roughness=0.12),
 }
 
@@ -89,12 +89,11 @@ def light(size: tuple[int, int], floor_y: float) -> Scene:
     canvas = Canvas(width, height)
     reach = canvas.default_height
     key = AreaLight(
-        x=0.2 * width, y=0.2 * height, z=0.9 * reach, size=0.4 * reach, colour="#ffe3b8", power=1.0
+        x=0.0, y=0.05 * height, z=1.5 * reach, size=0.4 * reach, colour="#ffe3b8", power=4.2
     )
     rim = AreaLight(
-        x=0.95 * width, y=0.3 * height, z=-0.5 * reach, size=0.6 * reach, colour="#8db7ff",
-        power=0.8,
-    )  # fmt: skip
+        x=width, y=0.35 * height, z=-0.4 * reach, size=0.5 * reach, colour="#8db7ff", power=2.0
+    )
     return Scene(
         canvas=canvas,
         lights=(key, rim),
