@@ -7,12 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ..errors import DrawingError, LampblackWarning
-from .mask import MIN_FIGURE, Mask, is_line_art, outside_of
+from .mask import MIN_FIGURE, is_line_art, outside_of
+from .morphology import Mask, highest, lowest, without_specks
 
 Colours = NDArray[np.uint8]
+
+_DUST = 7
+"""Fewer pixels than this, away from all else on paper, are its grain or the scanner's dust."""
 
 
 @dataclass(frozen=True)
@@ -93,11 +96,11 @@ def _enclosed(drawn: Mask) -> Mask:
 
 def _cover_with_paper(pixels: NDArray[np.uint8], mask: Mask, edge: NDArray[np.float32]) -> Cutout:
     """White paper under all of ``mask`` but its rim, which keeps coverage ``edge``."""
-    within = ndimage.binary_erosion(mask, border_value=1)
+    within = lowest(mask, 1)
     drawn = pixels[..., 3] >= 128
     hollow = within & ~drawn
     # Line thinner than two pixels has the rim on one side and the hollow on the other.
-    covered = within | (mask & ndimage.binary_dilation(hollow, iterations=2) & ~drawn)
+    covered = within | (mask & highest(hollow, 2) & ~drawn)
     colour = np.where(covered[..., None], _over_white(pixels), pixels[..., :3])
     return Cutout(colour, np.where(covered, np.float32(1), edge).astype(np.float32), mask)
 
@@ -112,8 +115,8 @@ def _over_white(pixels: NDArray[np.uint8]) -> Colours:
 def _from_paper(picture: Colours) -> Cutout:
     paper, grain = _paper_of(picture)
     tolerance = int(np.clip(8 + 2 * grain, 10, 48))
-    difference = np.abs(picture.astype(np.int16) - paper).max(axis=2)
-    drawn = _without_dust(difference > tolerance)
+    difference = _stray(picture, paper)
+    drawn = without_specks(difference > tolerance, _DUST)
     if not drawn.any():
         raise DrawingError("The paper is blank.", "Choose a picture with a drawing on it.")
     mask = _enclosed(drawn) if is_line_art(drawn) else ~outside_of(drawn, line_art=False)
@@ -121,7 +124,16 @@ def _from_paper(picture: Colours) -> Cutout:
     return Cutout(colour, coverage, coverage >= 0.5, grain)
 
 
-def _paper_of(picture: Colours) -> tuple[NDArray[np.int16], float]:
+def _stray(picture: Colours, paper: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Levels by which the channel that strays most from the paper does so, (H, W)."""
+    stray = np.zeros(picture.shape[:2], np.uint8)
+    for channel in range(3):
+        plane, level = picture[..., channel], paper[channel]
+        np.maximum(stray, np.maximum(plane, level) - np.minimum(plane, level), out=stray)
+    return stray
+
+
+def _paper_of(picture: Colours) -> tuple[NDArray[np.uint8], float]:
     """The colour most of the border wears, and how many levels its grain strays from it."""
     border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]]).astype(
         np.int16
@@ -138,34 +150,25 @@ def _paper_of(picture: Colours) -> tuple[NDArray[np.int16], float]:
             LampblackWarning,
             stacklevel=2,
         )
-    return paper, float(np.percentile(near, 98)) if len(near) else 0.0
-
-
-def _without_dust(drawn: Mask) -> Mask:
-    """Specks of a few pixels are the paper's grain or the scanner's dust."""
-    regions, count = ndimage.label(drawn, np.ones((3, 3)))
-    areas = np.bincount(regions.ravel(), minlength=count + 1)
-    keep = areas > 6
-    keep[0] = False
-    return np.asarray(keep[regions])
+    return paper.astype(np.uint8), float(np.percentile(near, 98)) if len(near) else 0.0
 
 
 def _lift(
     picture: Colours,
-    paper: NDArray[np.int16],
+    paper: NDArray[np.uint8],
     outside: Mask,
-    difference: NDArray[np.int16],
+    difference: NDArray[np.uint8],
     tolerance: int,
 ) -> tuple[Colours, NDArray[np.float32]]:
     """Solve pixel = coverage x figure + (1 - coverage) x paper along the figure's rim.
 
     The figure's colour there is taken from the pixel nearby that differs most from paper.
     """
-    edge = ~outside & ndimage.binary_dilation(outside)
+    edge = ~outside & highest(outside, 1)
     # Soft edges are two pixels deep: behind the edge the colour still grows away from paper.
-    growing = difference > ndimage.maximum_filter(np.where(edge, difference, 0), 3)
-    behind = ~outside & ~edge & growing & ndimage.binary_dilation(edge)
-    rim = edge | behind | (outside & ndimage.binary_dilation(~outside, iterations=2))
+    growing = difference > highest(np.where(edge, difference, 0), 1)
+    behind = ~outside & ~edge & growing & highest(edge, 1)
+    rim = edge | behind | (outside & highest(~outside, 2))
     rows, columns = np.nonzero(rim)
     best = difference[rows, columns].astype(np.int32)
     figure = picture[rows, columns].astype(np.int16)
@@ -176,7 +179,7 @@ def _lift(
             better = difference[y, x] > best
             best[better] = difference[y, x][better]
             figure[better] = picture[y, x][better]
-    towards = (figure - paper).astype(np.float32)
+    towards = figure.astype(np.float32) - paper
     offset = picture[rows, columns].astype(np.float32) - paper
     share = (offset * towards).sum(axis=1) / np.maximum((towards**2).sum(axis=1), 1)
     share = np.clip(share, 0, 1)

@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from .cutout import Colours
-from .mask import Mask, figure_span, is_line_art, regions_holding
+from .mask import figure_span, is_line_art
+from .morphology import (
+    Mask,
+    depth_within,
+    highest,
+    lowest,
+    near,
+    regions_holding,
+    without_specks,
+)
 
 _HAIRLINE = 0.005
 _BRUSH = 0.02
@@ -44,10 +52,10 @@ def find_ink(colour: Colours, mask: Mask) -> Mask:
     lines = _valleys(light, mask, hairline)
     main = _main_ink(colour, _valleys(light, mask, brush) | lines)
     if main is not None:
-        alike = mask & (np.abs(colour.astype(np.int16) - main).max(axis=2) <= _SAME_INK)
-        lines = _without_specks(lines & ~alike | alike & ~_wide_parts(alike, brush), 8)
-        lines = _without_specks(lines, 2 * hairline) | regions_holding(lines, alike & lines)
-    outline = np.count_nonzero(mask & ~ndimage.binary_erosion(mask))
+        alike = mask & _alike(colour, main)
+        lines = without_specks(lines & ~alike | alike & ~_wide_parts(alike, brush), 8)
+        lines = without_specks(lines, 2 * hairline) | regions_holding(lines, alike & lines)
+    outline = np.count_nonzero(mask & ~lowest(mask, 1))
     if _length(lines) > 0.25 * outline:
         return lines
     return mask.copy() if is_line_art(mask) else np.zeros_like(mask)
@@ -64,18 +72,16 @@ def _valleys(light: NDArray[np.uint8], mask: Mask, reach: int) -> Mask:
 
     The closing looks at the figure only, so an outline counts by the fill on its one side.
     """
-    size = 2 * reach + 1
-    hill = ndimage.maximum_filter(np.where(mask, light, np.uint8(0)), size, mode="constant")
-    hill = np.where(mask, hill, np.uint8(255))
-    depth = ndimage.minimum_filter(hill, size, mode="constant", cval=255) - light
+    hill = highest(np.where(mask, light, np.uint8(0)), reach)
+    depth = lowest(np.where(mask, hill, np.uint8(255)), reach) - light
     depth[~mask] = 0
-    deepest = ndimage.maximum_filter(depth, size)
+    deepest = highest(depth, reach)
     return np.asarray((depth >= _SHALLOWEST) & (depth >= deepest // 2))
 
 
 def _main_ink(colour: Colours, lines: Mask) -> NDArray[np.int16] | None:
     """The most common colour in the middle of the lines."""
-    middle = lines & ndimage.binary_erosion(lines, np.ones((2, 2)))
+    middle = lines & np.roll(lines, 1, 0) & np.roll(lines, 1, 1)
     drawn = colour[middle if middle.any() else lines].astype(np.int16)
     if not len(drawn):
         return None
@@ -84,10 +90,19 @@ def _main_ink(colour: Colours, lines: Mask) -> NDArray[np.int16] | None:
     return np.asarray(np.median(drawn[coarse == common], axis=0), np.int16)
 
 
+def _alike(colour: Colours, main: NDArray[np.int16]) -> Mask:
+    alike = np.ones(colour.shape[:2], bool)
+    for channel in range(3):
+        plane, level = colour[..., channel], int(main[channel])
+        alike &= plane >= max(0, level - _SAME_INK)
+        alike &= plane <= min(255, level + _SAME_INK)
+    return alike
+
+
 def _wide_parts(area: Mask, widest: int) -> Mask:
     """The parts of ``area`` that a ball clearly wider than most of its lines can roll in."""
-    depth = ndimage.distance_transform_edt(np.pad(area, 1))[1:-1, 1:-1]
-    ridge = depth[area & (depth >= ndimage.maximum_filter(depth, 3))]
+    depth = depth_within(np.pad(area, 1))[1:-1, 1:-1]
+    ridge = depth[area & (depth >= highest(depth, 1))]
     if not len(ridge):
         return np.zeros_like(area)
     usual = float(np.median(ridge))
@@ -96,21 +111,13 @@ def _wide_parts(area: Mask, widest: int) -> Mask:
     core = regions_holding(wide, depth > min(max(4.0, 2.8 * usual), widest))
     if not core.any():
         return core
-    grown = ndimage.distance_transform_edt(~core) < radius + 2.5
-    wide = area & grown
+    wide = area & near(core, radius + 2.5)
     # The ball does not reach into corners; what it leaves there is no line.
     rest = area & ~wide
-    corners = rest & ~_without_specks(rest, round(4 * usual**2))
+    corners = rest & ~without_specks(rest, round(4 * usual**2))
     return regions_holding(wide | corners, wide)
-
-
-def _without_specks(lines: Mask, smallest: int) -> Mask:
-    regions, count = ndimage.label(lines, np.ones((3, 3)))
-    keep = np.bincount(regions.ravel(), minlength=count + 1) >= smallest
-    keep[0] = False
-    return np.asarray(keep[regions])
 
 
 def _length(lines: Mask) -> float:
     """Length of the lines: half their boundary."""
-    return np.count_nonzero(lines & ~ndimage.binary_erosion(lines)) / 2
+    return np.count_nonzero(lines & ~lowest(lines, 1)) / 2

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from .cutout import Colours, Cutout
 from .ink import luma
-from .mask import Mask
+from .morphology import Mask, from_nearest, highest, lowest, without_specks
 
 _ALIKE = 4
 """Levels of luma between two pixels of the same fill."""
@@ -48,7 +47,7 @@ def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = No
         given: (H, W) float32, the ink's coverage where the artist has painted it.
     """
     colour, mask = cutout.colour, cutout.mask
-    touched = ndimage.maximum_filter(lines, 5) & (cutout.coverage > 0)
+    touched = highest(lines, 2) & (cutout.coverage > 0)
     fill = _continue_fill(cutout, touched, lines)
     rows, columns = np.nonzero(touched if given is None else given > 0)
     pixel = colour[rows, columns].astype(np.float32) / 255
@@ -56,7 +55,7 @@ def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = No
     over = _pure_ink(colour, lines)[rows, columns].astype(np.float32) / 255
     if given is None:
         share = _share(pixel, under, over)
-        middle = ndimage.binary_erosion(lines, border_value=1)
+        middle = lowest(lines, 1)
         share[middle[rows, columns]] = 1
         share[~mask[rows, columns] & lines[rows, columns]] = 1
     else:
@@ -79,16 +78,14 @@ def _continue_fill(cutout: Cutout, touched: Mask, lines: Mask) -> Colours:
     # Between two close lines every pixel is near ink; the lightest there, if several agree,
     # are free of it.
     light = np.where(solid & ~lines, luma(cutout.colour), np.uint8(0))
-    lightest = (light > 0) & (light >= ndimage.maximum_filter(light, 5) - _ALIKE)
-    agreeing = ndimage.uniform_filter(lightest.astype(np.float32), 3) > 2.5 / 9
-    sure |= lightest & agreeing & ~ndimage.maximum_filter(sure, 5)
+    lightest = (light > 0) & (highest(light, 2) - light <= _ALIKE)
+    sure |= lightest & without_specks(lightest, 3) & ~highest(sure, 2)
     if not sure.any():
         return np.full_like(cutout.colour, 255)
-    rows, columns = _nearest(sure)
-    carried = cutout.colour[rows, columns]
+    carried = from_nearest(cutout.colour, sure)
     own = (cutout.coverage > 0.1) & ~touched
     carried[own] = cutout.colour[own]
-    return np.asarray(carried)
+    return carried
 
 
 def _pure_ink(colour: Colours, lines: Mask) -> Colours:
@@ -96,17 +93,8 @@ def _pure_ink(colour: Colours, lines: Mask) -> Colours:
     if not lines.any():
         return colour
     light = np.where(lines, luma(colour), np.uint8(255))
-    darkest = lines & (light <= ndimage.minimum_filter(light, 5))
-    rows, columns = _nearest(darkest)
-    return np.asarray(colour[rows, columns])
-
-
-def _nearest(places: Mask) -> NDArray[np.int32]:
-    """Row and column of the nearest True pixel, for each pixel: (2, H, W)."""
-    indices: NDArray[np.int32] = ndimage.distance_transform_edt(
-        ~places, return_distances=False, return_indices=True
-    )
-    return indices
+    darkest = lines & (light <= lowest(light, 2))
+    return from_nearest(colour, darkest)
 
 
 Samples = NDArray[np.float32]

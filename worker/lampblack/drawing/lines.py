@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from .cutout import Colours
-from .mask import Mask
+from .morphology import Mask, highest, lowest
 
 _STRONG = 16
 """Levels by which two fills must differ for their border to stand in for a line."""
@@ -28,9 +27,9 @@ def line_drawing(
     Returns:
         (H, W) float32 in 0..1, 0 outside the mask.
     """
-    borders = mask & ~ndimage.binary_erosion(mask, iterations=2)
+    borders = mask & ~lowest(mask, 2)
     borders |= _colour_borders(fill, labels)
-    inked = ndimage.binary_dilation(ink > 0.3, iterations=3)
+    inked = highest(ink > 0.3, 3)
     lines = np.where(inked, ink, np.maximum(ink, borders))
     return np.where(mask, lines, np.float32(0)).astype(np.float32)
 

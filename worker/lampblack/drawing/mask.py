@@ -7,13 +7,12 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ..errors import DrawingError
-
-Mask = NDArray[np.bool_]
+from .morphology import Mask, depth_within, highest, near, regions_holding
 
 MIN_FIGURE = 16
 """A figure of fewer pixels is dust, not a drawing."""
 
-_WIDEST_LINE = 0.012
+_WIDEST_LINE = 0.018
 _GAPS = (0.008, 0.012, 0.024)
 """Shares of the figure's diagonal: half the width of a line, and the gaps in an outline."""
 
@@ -65,7 +64,7 @@ def is_line_art(drawn: Mask) -> bool:
     """Whether nearly all that is drawn is as thin as a line, so that nothing is filled."""
     span = figure_span(drawn)
     stride = max(1, int(span // 500))
-    depth = ndimage.distance_transform_edt(np.pad(drawn[::stride, ::stride], 1)) * stride
+    depth = depth_within(np.pad(drawn[::stride, ::stride], 1)) * stride
     deep = np.count_nonzero(depth > max(2.0, _WIDEST_LINE * span))
     return bool(deep < 0.1 * np.count_nonzero(depth))
 
@@ -96,7 +95,7 @@ def outside_of(drawn: Mask, *, line_art: bool) -> Mask:
     margin = int(gaps[-1]) + 2
     empty = np.pad(~drawn, margin, constant_values=True)
     _close_at_edges(empty, ~drawn, margin)
-    depth = ndimage.distance_transform_edt(empty).astype(np.float32)
+    depth = depth_within(empty)
     widest = chosen = _rolled_around(empty, depth, gaps[-1])
     for gap in gaps[:-1]:
         outside = _rolled_around(empty, depth, gap)
@@ -108,10 +107,10 @@ def outside_of(drawn: Mask, *, line_art: bool) -> Mask:
 
 def _rolled_around(empty: Mask, depth: NDArray[np.float32], gap: float) -> Mask:
     """What a ball of radius ``gap`` reaches from outside, and the bays beside it."""
-    outside = empty & (ndimage.distance_transform_edt(~_reached(depth > gap)) <= gap)
+    outside = empty & near(_reached(depth > gap), gap)
     bays = empty & ~outside
     bays &= ~regions_holding(bays, depth > gap)
-    outside |= regions_holding(bays, bays & ndimage.binary_dilation(outside))
+    outside |= regions_holding(bays, bays & highest(outside, 1))
     return np.asarray(outside)
 
 
@@ -122,15 +121,6 @@ def _close_at_edges(empty: Mask, inner: Mask, margin: int) -> None:
         from_corner = np.logical_and.accumulate(edge)
         from_corner |= np.logical_and.accumulate(edge[::-1])[::-1]
         np.rot90(empty, side)[:margin, margin:-margin] &= from_corner
-
-
-def regions_holding(area: Mask, seeds: Mask) -> Mask:
-    """The connected regions of ``area`` that hold at least one of ``seeds``."""
-    regions, count = ndimage.label(area, np.ones((3, 3)))
-    chosen = np.zeros(count + 1, bool)
-    chosen[regions[seeds]] = True
-    chosen[0] = False
-    return np.asarray(chosen[regions])
 
 
 def _reached(empty: Mask) -> Mask:

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ..errors import LampblackWarning
 from .cutout import Colours
-from .mask import Mask
+from .morphology import Mask, from_nearest, highest, lowest
 
 MAX_SWATCHES = 64
 
@@ -54,7 +53,7 @@ def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]
     Warns:
         LampblackWarning: painted art, or more than ``MAX_SWATCHES`` colours, was grouped.
     """
-    packed = fill.astype(np.int32) @ np.array([65536, 256, 1], np.int32)
+    packed = _pack(fill)
     smooth = mask & _is_smooth(fill)
     if not smooth.any():
         smooth = mask
@@ -75,10 +74,7 @@ def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]
     lookup[occupied] = _nearest_key(centres, keys)
     labels = _with_exact(lookup[cells], packed, keys)
     if not smooth.all():
-        rows, columns = ndimage.distance_transform_edt(
-            ~smooth, return_distances=False, return_indices=True
-        )
-        labels = labels[rows, columns]
+        labels = from_nearest(labels, smooth)
     return _most_used_first(keys, np.where(mask, labels, np.int16(-1)))
 
 
@@ -87,8 +83,7 @@ def _is_smooth(fill: Colours) -> Mask:
     spread = np.zeros(fill.shape[:2], np.uint8)
     for channel in range(3):
         plane = fill[..., channel]
-        high = ndimage.maximum_filter(plane, 3)
-        np.maximum(spread, high - ndimage.minimum_filter(plane, 3), out=spread)
+        np.maximum(spread, highest(plane, 1) - lowest(plane, 1), out=spread)
     return np.asarray(spread <= 20)
 
 
@@ -144,6 +139,14 @@ def _cell_centres(cells: NDArray[np.int64]) -> NDArray[np.int16]:
     return np.asarray(np.stack(centres, axis=-1), np.int16)
 
 
+def _pack(colours: NDArray[np.uint8] | NDArray[np.int16]) -> NDArray[np.int32]:
+    packed = np.zeros(colours.shape[:-1], np.int32)
+    for channel in range(3):
+        packed <<= 8
+        packed |= colours[..., channel]
+    return packed
+
+
 def _unpack(packed: NDArray[np.int32]) -> NDArray[np.int16]:
     channels = [packed >> shift & 255 for shift in (16, 8, 0)]
     return np.asarray(np.stack(channels, axis=-1), np.int16)
@@ -164,7 +167,7 @@ def _with_exact(
     labels: NDArray[np.int16], packed: NDArray[np.int32], keys: NDArray[np.int16]
 ) -> NDArray[np.int16]:
     """Two keys may share a cell: a pixel of exactly a key's colour wears that key."""
-    codes = keys.astype(np.int32) @ np.array([65536, 256, 1], np.int32)
+    codes = _pack(keys)
     order = np.argsort(codes)
     place = np.minimum(np.searchsorted(codes[order], packed), len(codes) - 1)
     exact = codes[order][place] == packed

@@ -87,15 +87,18 @@ def _window(figure: Cutout) -> tuple[slice, slice]:
     drawn = figure.coverage > 0
     rows = np.flatnonzero(drawn.any(axis=1))
     columns = np.flatnonzero(drawn.any(axis=0))
-    return (
-        slice(max(0, rows[0] - _MARGIN), rows[-1] + 1 + _MARGIN),
-        slice(max(0, columns[0] - _MARGIN), columns[-1] + 1 + _MARGIN),
-    )
+    top, left = max(0, rows[0] - _MARGIN), max(0, columns[0] - _MARGIN)
+    bottom, right = rows[-1] + 1 + _MARGIN, columns[-1] + 1 + _MARGIN
+    if (bottom - top) * (right - left) > 0.5 * drawn.size:
+        return slice(None), slice(None)  # not worth a second copy of every layer
+    return slice(top, bottom), slice(left, right)
 
 
 def _placed(
     part: NDArray[Sample], window: tuple[slice, slice], size: tuple[int, ...], empty: int = 0
 ) -> NDArray[Sample]:
+    if part.shape[:2] == size:
+        return part
     whole = np.full((*size, *part.shape[2:]), empty, part.dtype)
     whole[window] = part
     return whole

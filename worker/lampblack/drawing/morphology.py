@@ -1,0 +1,102 @@
+"""Neighbourhoods of pixels: square windows, distances and nearest places.
+
+scipy's filters go through doubles and its distance transform through several of them per
+pixel; these stay in the picture's own type, in bands, so that a 4096 pixel drawing fits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+Mask = NDArray[np.bool_]
+Sample = TypeVar("Sample", bound=np.generic)
+
+_BAND = 256
+
+
+def highest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
+    """The greatest value in the square of ``2 reach + 1`` pixels around each pixel.
+
+    Args:
+        image: (H, W), bool or not negative; what lies beyond its edge counts as 0.
+    """
+    size = 2 * reach + 1
+    for _ in range(2):
+        padded = np.pad(image, ((reach, reach), (0, 0)))
+        length = 1
+        while 2 * length <= size:
+            padded = np.maximum(padded[:-length], padded[length:])
+            length *= 2
+        if length < size:
+            padded = np.maximum(padded[: length - size], padded[size - length :])
+        image = np.ascontiguousarray(padded.T)
+    return image
+
+
+def lowest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
+    """The least value in the same square, for bool and unsigned images; what lies beyond
+    the edge counts as the type's greatest."""
+    return np.asarray(~highest(~image, reach))
+
+
+def depth_within(area: Mask) -> NDArray[np.float32]:
+    """Distance of each pixel of ``area`` to the nearest pixel outside it, 0 outside."""
+    depth = np.zeros(area.shape, np.float32)
+    if area.all():
+        depth[:] = max(area.shape)
+        return depth
+    rows, columns = _nearest(~area)
+    across = np.arange(area.shape[1], dtype=np.int32)
+    for band in _bands(area):
+        down = np.arange(band.start, band.stop, dtype=np.int32)[:, None]
+        depth[band] = np.hypot(rows[band] - down, columns[band] - across, dtype=np.float32)
+    return depth
+
+
+def near(places: Mask, distance: float) -> Mask:
+    """Pixels no further than ``distance`` from one of ``places``."""
+    return np.asarray(depth_within(~places) <= distance) if places.any() else places
+
+
+def from_nearest(image: NDArray[Sample], places: Mask) -> NDArray[Sample]:
+    """Every pixel takes the value that ``image`` has at the nearest of ``places``."""
+    taken = np.empty_like(image)
+    rows, columns = _nearest(places)
+    for band in _bands(places):
+        taken[band] = image[rows[band], columns[band]]
+    return taken
+
+
+def regions_holding(area: Mask, seeds: Mask) -> Mask:
+    """The connected regions of ``area`` that hold at least one of ``seeds``."""
+    regions, count = ndimage.label(area, np.ones((3, 3)))
+    chosen = np.zeros(count + 1, bool)
+    chosen[regions[seeds]] = True
+    chosen[0] = False
+    return np.asarray(chosen[regions])
+
+
+def without_specks(area: Mask, smallest: int) -> Mask:
+    """The connected regions of ``area`` of at least ``smallest`` pixels."""
+    regions, count = ndimage.label(area, np.ones((3, 3)))
+    keep = np.bincount(regions.ravel(), minlength=count + 1) >= smallest
+    keep[0] = False
+    return np.asarray(keep[regions])
+
+
+def _nearest(places: Mask) -> NDArray[np.int32]:
+    """Row and column of the nearest True pixel, for each pixel: (2, H, W)."""
+    indices: NDArray[np.int32] = ndimage.distance_transform_edt(
+        ~places, return_distances=False, return_indices=True
+    )
+    return indices
+
+
+def _bands(image: NDArray[np.generic]) -> Iterator[slice]:
+    for start in range(0, len(image), _BAND):
+        yield slice(start, min(start + _BAND, len(image)))
