@@ -11,6 +11,8 @@ from ..render.passes import LightPasses
 from .colour import linear, srgb
 from .resample import enlarge
 
+FAINT = np.float32(1e-3)  # no light is no shadow, rather than 0 / 0
+
 
 def shade_background(
     paint: NDArray[np.float32],
@@ -49,12 +51,12 @@ def floor_ratio(
     """The floor's light with the figure over that without it, all sources together, (H, W, 3)
     for ``size`` = (W, H); 1 where no light falls."""
     floors = [
-        (weight * source.floor_light, source.floor)
+        (weight * source.floor, weight * source.open_floor)
         for weight, source in sources
-        if source.floor is not None and source.floor_light is not None
+        if source.floor is not None and source.open_floor is not None
     ]
     if not floors:
         return np.ones((size[1], size[0], 3), np.float32)
-    free = sum(light for light, _ in floors)
-    cast = sum(light * ratio for light, ratio in floors)
-    return enlarge(np.divide(cast, free, out=np.ones_like(cast), where=free > 1e-6), size)
+    cast = sum((floor for floor, _ in floors), FAINT)
+    free = sum((open_floor for _, open_floor in floors), FAINT)
+    return enlarge(np.asarray(cast / free, np.float32), size)

@@ -36,7 +36,7 @@ def main() -> NoReturn:
                 stage.set_surface(*arrays)  # type: ignore[arg-type]
             elif isinstance(message, Trace):
                 light = trace(stage, denoiser, message)
-                found = (light.diffuse, light.glossy, light.floor, light.floor_light)
+                found = (light.diffuse, light.glossy, light.floor, light.open_floor)
                 send(answers, Traced(), [array for array in found if array is not None])
         except OSError:
             os._exit(0)

@@ -43,7 +43,7 @@ class RenderChild:
         self._loaded = b""
 
     def __enter__(self) -> Self:
-        self._start()
+        self.start()
         return self
 
     def __exit__(
@@ -64,7 +64,7 @@ class RenderChild:
             RenderError: the child failed or died; rendering again starts a new one.
         """
         try:
-            self._start()
+            self.start()
             self._load(request.surface)
             lights = tuple(self._trace(request, light) for light in request.lights)
             dark = np.zeros((1, 1, 3), np.float32)
@@ -88,7 +88,8 @@ class RenderChild:
         """Process id of the child, None while there is none."""
         return self._process.pid if self._process else None
 
-    def _start(self) -> None:
+    def start(self) -> None:
+        """Start the child unless it lives; returns at once, while it loads."""
         if self._process and self._process.poll() is None:
             return
         self._end()

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FLOAT3 = 3
+MARGIN = 8  # mirrored around the image, whose borders the network otherwise gets wrong
 QUALITY = {"fast": 4, "balanced": 5, "high": 6}
 
 
@@ -44,7 +45,7 @@ class Denoiser:
         """
         guides = {b"color": image, b"albedo": albedo, b"normal": normal}
         arrays = {
-            name: np.ascontiguousarray(array, np.float32)
+            name: np.pad(array, ((MARGIN, MARGIN), (MARGIN, MARGIN), (0, 0)), "symmetric")
             for name, array in guides.items()
             if array is not None
         }
@@ -66,7 +67,7 @@ class Denoiser:
             self._check()
         finally:
             lib.oidnReleaseFilter(rt)
-        return output
+        return output[MARGIN:-MARGIN, MARGIN:-MARGIN]
 
     def _check(self) -> None:
         message = ctypes.c_char_p()

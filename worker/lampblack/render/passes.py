@@ -17,16 +17,17 @@ class LightPasses:
     Attributes:
         diffuse: irradiance over pi with the albedo divided out: a white wall fully lit is 1.
         glossy: reflected radiance of the glossy lobe with its own colour divided out.
-        floor: ratio of the floor's light with the figure to its light without it: below 1 in
-            shadow, above 1 (per channel) where colour bleeds; None without a floor.
-        floor_light: the floor's light without the figure, which weighs the ratios of several
-            lights; None without a floor.
+        floor: irradiance over pi of the floor with the figure on it: its shadow, and the
+            colour that bleeds from it; None without a floor.
+        open_floor: the same without the figure; equal to ``floor`` where nothing is cast.
+            The shadow is the ratio of the two, each summed over the lights, since a light may
+            reach the floor by way of the figure alone.
     """
 
     diffuse: NDArray[np.float32]
     glossy: NDArray[np.float32]
     floor: NDArray[np.float32] | None = None
-    floor_light: NDArray[np.float32] | None = None
+    open_floor: NDArray[np.float32] | None = None
 
 
 @dataclass(frozen=True)

@@ -65,3 +65,12 @@ QUALITIES: dict[str, Quality] = {
         mesh_stride=1,
     ),
 }
+
+REFERENCE = Quality(
+    light=Sampling(1.0, 4096, 512),
+    ambient=Sampling(1.0, 4096, 512),
+    floor=Sampling(1.0, 4096, 512),
+    denoise="high",
+    mesh_stride=1,
+)
+"""Every pixel, far too many samples: what the presets are judged against."""

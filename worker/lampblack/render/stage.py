@@ -31,6 +31,9 @@ PASSES = (
     "normal",
 )
 
+Floats = NDArray[np.float32]
+SurfaceArrays = tuple[Floats, NDArray[np.int32], Floats, Floats, Floats]
+
 
 class Stage:
     """Holds the Blender scene between renders, so that only what changed is rebuilt."""
@@ -39,7 +42,7 @@ class Stage:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.scene: Any = bpy.context.scene
         self._set_engine()
-        self._surface: tuple[NDArray[np.float32], NDArray[np.int32], Any] | None = None
+        self._surface: SurfaceArrays | None = None
         self._canvas: Canvas | None = None
         self._figure = self._add("figure", bpy.data.meshes.new("figure"))
         # A mesh with two users keeps its BVH to itself, so a moved light leaves it standing.
@@ -65,37 +68,21 @@ class Stage:
 
     def set_surface(
         self,
-        vertices: NDArray[np.float32],
+        vertices: Floats,
         faces: NDArray[np.int32],
-        albedo: NDArray[np.float32],
-        gloss: NDArray[np.float32],
-        roughness: NDArray[np.float32],
+        albedo: Floats,
+        gloss: Floats,
+        roughness: Floats,
     ) -> None:
         """Take a relief in canvas pixels; it is built when the canvas is known."""
-        self._surface = vertices, faces, (albedo, gloss, roughness)
+        self._surface = vertices, faces, albedo, gloss, roughness
         self._canvas = None
 
     def set_canvas(self, canvas: Canvas) -> None:
         """Build the relief for ``canvas``, if that is not what stands there already."""
         if canvas == self._canvas or self._surface is None:
             return
-        vertices, faces, (albedo, gloss, roughness) = self._surface
-        old = self._figure.data
-        mesh = bpy.data.meshes.new("figure")
-        mesh.vertices.add(len(vertices))
-        mesh.attributes["position"].data.foreach_set(
-            "vector", _to_blender(vertices, canvas).ravel()
-        )
-        mesh.loops.add(faces.size)
-        mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(faces).ravel())
-        mesh.polygons.add(len(faces))
-        mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 3, dtype=np.int32))
-        colour = mesh.attributes.new("albedo", "FLOAT_VECTOR", "POINT")
-        colour.data.foreach_set("vector", np.clip(albedo, *ALBEDO_RANGE).ravel())
-        for name, values in (("gloss", gloss), ("roughness", roughness)):
-            mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
-        mesh.update()
-        mesh.materials.append(_figure_material(glossy=bool(gloss.any())))
+        old, mesh = self._figure.data, _figure_mesh(*self._surface, canvas)
         self._figure.data = self._twin.data = mesh
         for material in old.materials:
             bpy.data.materials.remove(material)
@@ -189,7 +176,7 @@ def threads() -> int:
     return os.cpu_count() or 1
 
 
-def _to_blender(points: NDArray[np.float32], canvas: Canvas) -> NDArray[np.float32]:
+def _to_blender(points: Floats, canvas: Canvas) -> Floats:
     """(N, 3) canvas pixels to Blender's frame."""
     centre = np.array([canvas.width / 2, canvas.height / 2, 0], np.float32)
     flip = np.array([1, -1, 1], np.float32)
@@ -197,12 +184,43 @@ def _to_blender(points: NDArray[np.float32], canvas: Canvas) -> NDArray[np.float
 
 
 def _set_visible(thing: Any, rays: str) -> None:
-    """Show to camera, diffuse, glossy and shadow rays by initial."""
+    """Show to camera, diffuse, glossy and shadow rays by initial.
+
+    Transmission rays, of which there are none, always see it: Cycles drops what no ray sees,
+    and would have to build it anew.
+    """
     thing.visible_camera = "c" in rays
     thing.visible_diffuse = "d" in rays
     thing.visible_glossy = "g" in rays
     thing.visible_shadow = "s" in rays
-    thing.visible_transmission = thing.visible_volume_scatter = False
+
+
+def _figure_mesh(
+    vertices: Floats,
+    faces: NDArray[np.int32],
+    albedo: Floats,
+    gloss: Floats,
+    roughness: Floats,
+    canvas: Canvas,
+) -> Any:
+    """The relief in Blender's frame, smooth shaded, with its material per vertex."""
+    mesh = bpy.data.meshes.new("figure")
+    if not len(vertices):
+        return mesh
+    mesh.vertices.add(len(vertices))
+    # Through the attribute: a hundred times faster than through the vertices.
+    mesh.attributes["position"].data.foreach_set("vector", _to_blender(vertices, canvas).ravel())
+    mesh.loops.add(faces.size)
+    mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(faces).ravel())
+    mesh.polygons.add(len(faces))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 3, dtype=np.int32))
+    colour = mesh.attributes.new("albedo", "FLOAT_VECTOR", "POINT")
+    colour.data.foreach_set("vector", np.clip(albedo, *ALBEDO_RANGE).ravel())
+    for name, values in (("gloss", gloss), ("roughness", roughness)):
+        mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
+    mesh.update()
+    mesh.materials.append(_figure_material(glossy=bool(gloss.any())))
+    return mesh
 
 
 def _figure_material(*, glossy: bool) -> Any:

@@ -12,6 +12,9 @@ from .passes import LightPasses
 from .stage import Stage
 from .wire import Trace
 
+FAINT = np.float32(0.05)
+UNSEEN = 0.004  # half a step of an 8-bit picture: paper far from the figure stays as it was
+
 
 def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     """Trace the source of ``job`` over the surface and the floor on ``stage``.
@@ -43,11 +46,13 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
         return LightPasses(diffuse, glossy)
     stage.set_sampling(job.quality.floor)
     stage.set_view(job.view, job.quality.floor.size(*job.view[2:]), job.canvas)
-    shadowed, bare = (_floor_light(stage, subject) for subject in ("floor", "bare floor"))
-    lit = bare > 1e-4
-    ratio = np.where(lit, shadowed / np.where(lit, bare, 1), 1).astype(np.float32)
-    ratio = np.maximum(denoiser.denoise(ratio, job.quality.denoise), 0)
-    return LightPasses(diffuse, glossy, ratio, bare)
+    # Both renders draw the same random numbers, so their ratio is free of noise but in the
+    # shadow and where light bleeds; FAINT keeps it tame where no light falls.
+    cast, free = (_floor_light(stage, subject) + FAINT for subject in ("floor", "bare floor"))
+    change = denoiser.denoise(cast / free, job.quality.denoise) - 1
+    change -= np.clip(change, -UNSEEN, UNSEEN)
+    floor = np.maximum(free - FAINT + change * free, 0)
+    return LightPasses(diffuse, glossy, floor, free - FAINT)
 
 
 def fill(image: NDArray[np.float32], inside: NDArray[np.bool_]) -> NDArray[np.float32]:

@@ -45,7 +45,7 @@ class Trace(msgspec.Struct, tag=True):
 
 
 class Traced(msgspec.Struct, tag=True):
-    """Arrays: diffuse, glossy and, with a floor, floor and floor_light."""
+    """Arrays: diffuse, glossy and, with a floor, floor and open_floor."""
 
 
 class Failed(msgspec.Struct, tag=True):
