@@ -108,7 +108,7 @@ def _wide_parts(area: Mask, widest: int) -> Mask:
     usual = float(np.median(ridge))
     radius = min(max(2.5, 1.6 * usual), widest)
     wide = depth > radius
-    core = regions_holding(wide, depth > min(max(4.0, 2.8 * usual), widest))
+    core = regions_holding(wide, depth > min(max(4.0, 2.8 * usual), max(widest, 2.2 * usual)))
     if not core.any():
         return core
     wide = area & near(core, radius + 2.5)

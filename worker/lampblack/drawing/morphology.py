@@ -25,17 +25,25 @@ def highest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
     Args:
         image: (H, W), bool or not negative; what lies beyond its edge counts as 0.
     """
-    size = 2 * reach + 1
-    for _ in range(2):
-        padded = np.pad(image, ((reach, reach), (0, 0)))
-        length = 1
-        while 2 * length <= size:
-            padded = np.maximum(padded[:-length], padded[length:])
-            length *= 2
-        if length < size:
-            padded = np.maximum(padded[: length - size], padded[size - length :])
-        image = np.ascontiguousarray(padded.T)
-    return image
+    return _highest_across(_highest_down(image, reach), reach)
+
+
+def _highest_down(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
+    high, length, size = np.pad(image, ((reach, reach), (0, 0))), 1, 2 * reach + 1
+    while length < size:
+        step = min(length, size - length)
+        high = np.maximum(high[:-step], high[step:])
+        length += step
+    return high
+
+
+def _highest_across(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
+    high, length, size = np.pad(image, ((0, 0), (reach, reach))), 1, 2 * reach + 1
+    while length < size:
+        step = min(length, size - length)
+        high = np.maximum(high[:, :-step], high[:, step:])
+        length += step
+    return high
 
 
 def lowest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
