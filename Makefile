@@ -1,5 +1,5 @@
 # make demo: light the example animation. make test: check everything. Both install first.
-.PHONY: demo test check format install clean
+.PHONY: demo test check format install clean schema
 
 BIN := .venv/bin
 OUT ?= out/demo
@@ -27,3 +27,7 @@ install:
 
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache
+
+schema: install
+	$(BIN)/python -c "import json; from lampblack.scene import scene_schema; \
+	    print(json.dumps(scene_schema(), indent=2))" > protocol/scene.schema.json

@@ -51,7 +51,7 @@ class ArrayCache:
         """The array of ``key``, made and kept if it is not there."""
         path = self._folder / f"{key}.npz"
         try:
-            with np.load(path, allow_pickle=False) as archive:
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 array: NDArray[np.float32] = archive["array"].astype(np.float32)
             with contextlib.suppress(OSError):
                 os.utime(path)

@@ -147,7 +147,7 @@ def decode_scene(data: bytes) -> Scene:
         )
     try:
         tree = msgspec.json.decode(data)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise SceneError(
             "The scene file is not valid JSON.", "Write a fresh one: lampblack scene.", str(error)
         ) from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -43,7 +42,7 @@ class NetworkCard:
 
 def shipped_weights() -> Path:
     """The weights that come with Lampblack."""
-    return Path(str(files("lampblack.normals").joinpath("weights", "dilated-unet.safetensors")))
+    return Path(__file__).parent / "weights" / "dilated-unet.safetensors"
 
 
 def save_network(path: Path, network: nn.Module, card: NetworkCard) -> None:

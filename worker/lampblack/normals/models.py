@@ -14,6 +14,7 @@ from ..errors import LampblackError
 
 MAX_FACES = 2_000_000
 CREASE_DEGREES = 75.0
+MAX_FACES_AROUND = 64
 MODEL_SUFFIXES = (".npz", ".glb", ".obj", ".ply", ".stl", ".off")
 
 
@@ -67,12 +68,12 @@ def load_model(path: Path) -> Model:
     """
     try:
         if path.suffix == ".npz":
-            with np.load(path, allow_pickle=False) as archive:
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 vertices, faces = archive["vertices"], archive["faces"]
         else:
             mesh = trimesh.load_mesh(path, process=False)
             vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    except (OSError, ValueError, KeyError, TypeError, NotImplementedError) as error:
+    except Exception as error:  # what a broken mesh makes the readers raise has no end
         raise LampblackError(f"{path} cannot be read as a mesh.", details=str(error)) from error
     if not 0 < len(faces) <= MAX_FACES or not np.isfinite(vertices).all():
         raise LampblackError(f"{path} has {len(faces)} faces; 1 to {MAX_FACES} can be used.")
@@ -95,25 +96,30 @@ def load_model(path: Path) -> Model:
         name=f"{path.parent.name}/{path.stem}",
         vertices=vertices,
         faces=faces.astype(np.int32),
-        corner_normals=_corner_normals(faces, area_normals, len(vertices)),
+        corner_normals=_corner_normals(faces, area_normals),
         double_sided=len(distinct) < 0.98 * len(faces),
     )
 
 
 def _corner_normals(
-    faces: NDArray[np.int64], area_normals: NDArray[np.float32], vertex_count: int
+    faces: NDArray[np.int64], area_normals: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """Average the faces around each vertex, but keep the face's own normal at a crease."""
+    """At each corner, the mean of the faces around its vertex that lie within the crease."""
     unit = area_normals / np.linalg.norm(area_normals, axis=1, keepdims=True)
-    summed = np.zeros((vertex_count, 3), np.float32)
-    for corner in range(3):
-        np.add.at(summed, faces[:, corner], area_normals)
-    smooth = summed[faces]
-    smooth /= np.maximum(np.linalg.norm(smooth, axis=2, keepdims=True), 1e-12)
-    agreement = np.einsum("fcd,fd->fc", smooth, unit)[..., None]
-    # Blend rather than switch: a hard switch would draw a crease around single triangles.
-    full, none = np.cos(np.radians(CREASE_DEGREES * np.array([0.7, 1.0])))
-    weight = np.clip((agreement - none) / (full - none), 0, 1)
-    blended = weight * smooth + (1 - weight) * unit[:, None, :]
-    result: NDArray[np.float32] = blended / np.linalg.norm(blended, axis=2, keepdims=True)
-    return result.astype(np.float32)
+    corner_vertex = faces.reshape(-1)
+    corner_face = np.repeat(np.arange(len(faces)), 3)
+    order = np.argsort(corner_vertex, kind="stable")
+    degree = np.bincount(corner_vertex)
+    first = np.concatenate([[0], np.cumsum(degree)[:-1]])
+    summed = np.zeros((len(corner_vertex), 3), np.float32)
+    # The k-th face around every corner's vertex, all corners at once.
+    for k in range(min(int(degree.max()), MAX_FACES_AROUND)):
+        has = np.flatnonzero(degree[corner_vertex] > k)
+        other = corner_face[order[first[corner_vertex[has]] + k]]
+        alike = np.einsum("cd,cd->c", unit[corner_face[has]], unit[other])
+        near = alike > np.cos(np.radians(CREASE_DEGREES))
+        summed[has[near]] += area_normals[other[near]]
+    length = np.linalg.norm(summed, axis=1, keepdims=True)
+    normals = np.where(length > 1e-12, summed / np.maximum(length, 1e-12), unit[corner_face])
+    result: NDArray[np.float32] = normals.astype(np.float32).reshape(-1, 3, 3)
+    return result

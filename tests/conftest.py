@@ -1,0 +1,46 @@
+"""What several tests share: a small drawing, and caches that touch nobody's home."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lampblack.cache import ArrayCache
+from lampblack.drawing import save_picture
+from lampblack.pipeline import Pipeline
+from numpy.typing import NDArray
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+
+
+@pytest.fixture(scope="session")
+def pipeline(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pipeline]:
+    """One renderer for all tests that only want light."""
+    with Pipeline(ArrayCache(tmp_path_factory.mktemp("surfaces"))) as shared:
+        yield shared
+
+
+def draw_ball(
+    size: int = 160, fill: tuple[int, int, int] = (220, 120, 60), canvas: int | None = None
+) -> NDArray[np.uint8]:
+    """(canvas, canvas, 4) uint8: an inked, anti-aliased ball on a transparent canvas."""
+    canvas = canvas or size
+    rows, columns = np.mgrid[0:canvas, 0:canvas] + 0.5 - canvas / 2
+    distance = np.hypot(rows, columns)
+    radius, line = size * 0.4, max(2.0, size / 60)
+    cover = np.clip(radius - distance + 0.5, 0, 1)
+    inside = np.clip(radius - line - distance + 0.5, 0, 1)[..., None]
+    colour = np.array(fill) * inside + np.array([20, 16, 24]) * (1 - inside)
+    return np.dstack([np.round(colour), np.round(255 * cover)]).astype(np.uint8)
+
+
+@pytest.fixture
+def ball_png(tmp_path: Path) -> Path:
+    path = tmp_path / "ball.png"
+    save_picture(path, draw_ball())
+    return path
