@@ -7,12 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from . import cells
+from .nodes import Nodes, place_nodes
+
+BACK_DEPTH = 0.5
+"""The back mirrors the front at this share of its height: round enough that light from the
+side or from behind meets a body, not a card."""
+THICKNESS = 1.0
+"""Pixels between the front and the back where the front is lowest."""
+
 
 @dataclass(frozen=True)
 class Relief:
     """A closed triangle mesh in canvas pixels: x right, y down, z towards the viewer.
 
-    Pixel (row, column) has its centre at ``(column + 0.5, row + 0.5)``.
+    Pixel (row, column) has its centre at ``(column + 0.5, row + 0.5)``. The first half of the
+    vertices is the front; vertex ``i + V / 2`` lies straight behind vertex ``i``.
 
     Attributes:
         vertices: (V, 3) float32.
@@ -22,3 +32,123 @@ class Relief:
 
     vertices: NDArray[np.float32]
     faces: NDArray[np.int32]
+
+
+def build_relief(
+    height: NDArray[np.float32],
+    mask: NDArray[np.bool_],
+    *,
+    stride: int = 1,
+    relief_scale: float = 1.0,
+) -> Relief:
+    """Mesh the height map, one vertex for each block of ``stride`` x ``stride`` pixels.
+
+    The silhouette is the mask's outline, its pixel corners cut. Where the height jumps far
+    more than the slopes on either side imply, the surface is cut instead of bridged. Every
+    front vertex has one behind it and every open edge a wall, so the mesh is closed.
+
+    Args:
+        height: (H, W) float32, pixels towards the viewer.
+        mask: (H, W) bool, True inside the figure.
+        stride: pixels between vertices.
+        relief_scale: multiplies the height (1 / gamma in the paper's eq. 4).
+
+    Raises:
+        ValueError: shapes that differ, a height that is not finite, a stride below 1.
+    """
+    if height.ndim != 2 or height.shape != mask.shape:
+        raise ValueError(f"height {height.shape} and mask {mask.shape} are not the same (H, W)")
+    if stride < 1:
+        raise ValueError(f"stride {stride} is below 1")
+    if not (np.isfinite(relief_scale) and np.isfinite(height[mask]).all()):
+        raise ValueError("the height or its scale is not finite")
+    nodes = place_nodes(height, mask, stride)
+    triangles, open_edges = _front(nodes)
+    front = nodes.points * np.array([1, 1, relief_scale], np.float32)
+    back = front.copy()
+    back[:, 2] = np.minimum(front[:, 2], -BACK_DEPTH * np.maximum(front[:, 2], 0)) - THICKNESS
+    behind = np.int32(len(front))
+    a, b = open_edges[:, 1], open_edges[:, 0]
+    walls = np.stack([a, b, b + behind, a, b + behind, a + behind], axis=1).reshape(-1, 3)
+    faces = np.concatenate([triangles, triangles[:, ::-1] + behind, walls])
+    return Relief(np.concatenate([front, back]), faces.astype(np.int32, copy=False))
+
+
+def check_relief(relief: Relief) -> list[str]:
+    """What is wrong with the mesh, one sentence each; nothing for a sound one.
+
+    Looks for vertices that are not finite, faces that name vertices there are none of,
+    degenerate faces, and edges that are not shared by exactly two faces of one winding.
+    """
+    vertices, faces = relief.vertices, relief.faces
+    if len(faces) == 0:
+        return ["The mesh has no faces."]
+    wrong = []
+    if not np.isfinite(vertices).all():
+        wrong.append("Some vertices are not finite.")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        return [*wrong, "Some faces name vertices that do not exist."]
+    corner = vertices[faces].astype(np.float64)
+    area = np.linalg.norm(
+        np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
+    )
+    if not (area > 0).all():
+        wrong.append(f"{np.count_nonzero(~(area > 0))} faces are degenerate.")
+    start = faces.astype(np.int64)
+    end = np.roll(start, -1, axis=1)
+    there = np.sort((start * len(vertices) + end).ravel())
+    back = np.sort((end * len(vertices) + start).ravel())
+    if (there[1:] == there[:-1]).any() or not np.array_equal(there, back):
+        wrong.append("The mesh is not closed, or its faces are not wound alike.")
+    return wrong
+
+
+def _front(nodes: Nodes) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """(F, 3) triangles and (E, 2) directed open edges of the front surface."""
+    rows, columns = nodes.number.shape[0] - 1, nodes.number.shape[1] - 1
+    window = [(slice(r, r + rows), slice(c, c + columns)) for r, c in cells.CORNERS]
+    side = [nodes.link_down[:, :-1], nodes.link_right[1:], nodes.link_down[:, 1:]]
+    side.append(nodes.link_right[:-1])
+    code = np.zeros((rows, columns), np.uint8)
+    for k in range(4):
+        code |= (nodes.number[window[k]] >= 0).astype(np.uint8) << k
+        code |= side[k].astype(np.uint8) << (4 + k)
+    slots = [nodes.number[w] for w in window]
+    for k in range(4):
+        ahead, behind = cells.HEADINGS[k]
+        slots += [nodes.rim[ahead][window[k]], nodes.rim[behind][window[(k + 1) % 4]]]
+
+    triangles = [_split_quads(nodes.points, [s[code == cells.WHOLE] for s in slots[:4]])]
+    open_edges = [np.zeros((0, 2), np.int32)]
+    for value in np.unique(code):
+        if value in (0, cells.WHOLE):
+            continue
+        at = code == value
+        found = cells.pieces(int(value))
+        triangles += [np.stack([slots[s][at] for s in t], axis=1) for t in found.triangles]
+        open_edges += [np.stack([slots[s][at] for s in e], axis=1) for e in found.open_edges]
+    edges = np.concatenate(open_edges)
+    # A step one link long opens the same edge in both its cells: there they join.
+    low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1)
+    _, first, times = np.unique(
+        low * len(nodes.points) + high, return_index=True, return_counts=True
+    )
+    return np.concatenate(triangles), edges[first[times == 1]]
+
+
+def _split_quads(points: NDArray[np.float32], quad: list[NDArray[np.int32]]) -> NDArray[np.int32]:
+    """Two triangles a quad, along the flatter diagonal unless that turns one over."""
+    p = [points[corner] for corner in quad]
+
+    def turned(a: int, b: int, c: int) -> NDArray[np.bool_]:
+        u, v = p[b] - p[a], p[c] - p[a]
+        return np.asarray(u[:, 0] * v[:, 1] >= u[:, 1] * v[:, 0])
+
+    bad_02 = turned(0, 1, 2) | turned(0, 2, 3)
+    bad_13 = turned(0, 1, 3) | turned(1, 2, 3)
+    flatter = np.abs(p[1][:, 2] - p[3][:, 2]) < np.abs(p[0][:, 2] - p[2][:, 2])
+    use_13 = np.where(bad_02 == bad_13, flatter, bad_02)
+    a, b, c, d = quad
+    along_02 = np.stack([a, b, c, a, c, d], axis=1)
+    along_13 = np.stack([a, b, d, b, c, d], axis=1)
+    return np.where(use_13[:, None], along_13, along_02).reshape(-1, 3)
