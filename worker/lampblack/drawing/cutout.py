@@ -84,7 +84,7 @@ def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
 def _enclosed(drawn: Mask) -> Mask:
     """The line and all it encloses."""
     mask = ~outside_of(drawn, line_art=True)
-    if np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
+    if MIN_FIGURE <= np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
         warnings.warn(
             "The outline is not closed, so there is nothing within the lines to light; "
             "close its gaps, or give a mask.",

@@ -114,11 +114,16 @@ def _share(pixel: Samples, under: Samples, over: Samples) -> Samples:
 def _take_up_rest(
     pixel: Samples, share: Samples, over: Samples, under: Samples
 ) -> tuple[Samples, Samples]:
+    """Layers that give ``pixel`` back, where those given miss it by more than rounding."""
     part = share[:, None]
     mostly_ink = part >= 0.5
+    # Rounding itself is left alone: solving for it would only amplify it in the fill.
+    missed = np.abs(part * over + (1 - part) * under - pixel).max(axis=1) > 1.2 / 255
     for first in (True, False):
         solved_over = np.clip((pixel - (1 - part) * under) / np.maximum(part, 1e-3), 0, 1)
         solved_under = np.clip((pixel - part * over) / np.maximum(1 - part, 1e-3), 0, 1)
-        over = np.where(mostly_ink == first, np.where(part > 0, solved_over, over), over)
-        under = np.where(mostly_ink == first, under, np.where(part < 1, solved_under, under))
+        take_over = (mostly_ink == first) & (part > 0) & missed[:, None]
+        take_under = (mostly_ink != first) & (part < 1) & missed[:, None]
+        over = np.where(take_over, solved_over, over)
+        under = np.where(take_under, solved_under, under)
     return over.astype(np.float32), under.astype(np.float32)

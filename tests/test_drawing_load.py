@@ -1,0 +1,173 @@
+"""PNG in and out: every colour type and depth, and every way a file can be bad."""
+
+from __future__ import annotations
+
+import os
+import struct
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from lampblack.drawing import load_picture, save_picture
+from lampblack.errors import DrawingError, LampblackError
+
+GREY, RGB, INDEXED, GREY_ALPHA, RGB_ALPHA = 0, 2, 3, 4, 6
+
+
+def chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def png(width: int, height: int, depth: int, kind: int, row: bytes, extra: bytes = b"") -> bytes:
+    """A PNG with the same ``row`` of packed samples all the way down."""
+    header = struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0)
+    data = zlib.compress((b"\0" + row) * height)
+    chunks = chunk(b"IHDR", header) + extra + chunk(b"IDAT", data) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + chunks
+
+
+def first_row(tmp_path: Path, data: bytes) -> list[list[int]]:
+    path = tmp_path / "picture.png"
+    path.write_bytes(data)
+    row: list[list[int]] = load_picture(path)[0].tolist()
+    return row
+
+
+def words(*values: int) -> bytes:
+    return struct.pack(f">{len(values)}H", *values)
+
+
+@pytest.mark.parametrize(
+    ("depth", "kind", "row", "extra", "expected"),
+    [
+        (8, GREY, b"\x00\x80\xff", b"", [[0] * 3 + [255], [128] * 3 + [255], [255] * 4]),
+        (8, GREY, b"\x07\x09", chunk(b"tRNS", words(7)), [[7] * 3 + [0], [9] * 3 + [255]]),
+        (1, GREY, b"\x40", b"", [[0] * 3 + [255], [255] * 4]),
+        (1, GREY, b"\x40", chunk(b"tRNS", words(1)), [[0] * 3 + [255], [255] * 3 + [0]]),
+        (2, GREY, b"\x1b", chunk(b"tRNS", words(1)), [[0] * 3 + [255], [85] * 3 + [0]]),
+        (4, GREY, b"\x1f", chunk(b"tRNS", words(15)), [[17] * 3 + [255], [255] * 3 + [0]]),
+        (16, GREY, words(0x8080, 257), b"", [[128] * 3 + [255], [1, 1, 1, 255]]),
+        (16, GREY, words(5, 65535), chunk(b"tRNS", words(5)), [[0, 0, 0, 0], [255] * 4]),
+        (8, GREY_ALPHA, b"\x09\x40\x80\xff", b"", [[9, 9, 9, 64], [128, 128, 128, 255]]),
+        (16, GREY_ALPHA, words(0x0909, 0x4040), b"", [[9, 9, 9, 64]]),
+        (8, RGB, b"\x01\x02\x03", b"", [[1, 2, 3, 255]]),
+        (8, RGB, b"\x01\x02\x03", chunk(b"tRNS", words(1, 2, 3)), [[1, 2, 3, 0]]),
+        (16, RGB, words(0x0101, 0x8080, 0xFFFF), b"", [[1, 128, 255, 255]]),
+        (16, RGB, words(257, 0, 0), chunk(b"tRNS", words(257, 0, 0)), [[1, 0, 0, 0]]),
+        (8, RGB_ALPHA, b"\x01\x02\x03\x04", b"", [[1, 2, 3, 4]]),
+        (16, RGB_ALPHA, words(257, 514, 771, 1028), b"", [[1, 2, 3, 4]]),
+        (
+            2,
+            INDEXED,
+            b"\x10",
+            chunk(b"PLTE", bytes([1, 2, 3, 4, 5, 6])) + chunk(b"tRNS", b"\x00\x80"),
+            [[1, 2, 3, 0], [4, 5, 6, 128]],
+        ),
+    ],
+)
+def test_every_kind_of_png(
+    tmp_path: Path, depth: int, kind: int, row: bytes, extra: bytes, expected: list[list[int]]
+) -> None:
+    assert first_row(tmp_path, png(len(expected), 2, depth, kind, row, extra)) == expected
+
+
+def test_sixteen_bits_come_within_one_level(tmp_path: Path) -> None:
+    values = np.arange(0, 65536, 40)
+    data = png(len(values), 1, 16, RGB, words(*np.repeat(values, 3).tolist()))
+    read = np.array(first_row(tmp_path, data))[:, 0]
+    assert np.abs(read - values / 257).max() <= 1
+
+
+def test_round_trip(tmp_path: Path) -> None:
+    picture = np.random.default_rng(0).integers(0, 256, (31, 17, 4)).astype(np.uint8)
+    save_picture(tmp_path / "a.png", picture)
+    np.testing.assert_array_equal(load_picture(tmp_path / "a.png"), picture)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
+
+
+@pytest.fixture
+def good(tmp_path: Path) -> bytes:
+    picture = np.random.default_rng(0).integers(0, 256, (40, 40, 4)).astype(np.uint8)
+    save_picture(tmp_path / "good.png", picture)
+    return (tmp_path / "good.png").read_bytes()
+
+
+@pytest.mark.parametrize("share", [0, 0.01, 0.1, 0.5, 0.9, 0.995])
+def test_cut_short(tmp_path: Path, good: bytes, share: float) -> None:
+    path = tmp_path / "cut.png"
+    path.write_bytes(good[: int(share * len(good))])
+    with pytest.raises(DrawingError):
+        load_picture(path)
+
+
+def test_corrupt(tmp_path: Path, good: bytes) -> None:
+    path = tmp_path / "corrupt.png"
+    for place in (18, 29, 50, len(good) // 2):
+        data = bytearray(good)
+        data[place] ^= 0x55
+        path.write_bytes(data)
+        with pytest.raises(DrawingError):
+            load_picture(path)
+
+
+def test_not_a_picture(tmp_path: Path) -> None:
+    text = tmp_path / "text.png"
+    text.write_text("hello, I am a drawing, honestly, and long enough for a header")
+    jpeg = tmp_path / "jpeg.png"
+    Image.new("RGB", (9, 9)).save(jpeg, "JPEG")
+    for path in (text, jpeg):
+        with pytest.raises(DrawingError, match="not a PNG"):
+            load_picture(path)
+    with pytest.raises(DrawingError, match="no picture"):
+        load_picture(tmp_path / "missing.png")
+    with pytest.raises(DrawingError, match="folder"):
+        load_picture(tmp_path)
+
+
+@pytest.mark.parametrize("size", [(16385, 1), (1, 16385), (10001, 10000), (2**31 - 1, 2**31 - 1)])
+def test_absurd_sizes_are_refused_before_decoding(tmp_path: Path, size: tuple[int, int]) -> None:
+    path = tmp_path / "huge.png"
+    header = struct.pack(">IIBBBBB", *size, 8, RGB_ALPHA, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header))
+    with pytest.raises(DrawingError, match="too large"):
+        load_picture(path)
+
+
+def test_large_picture_is_read_without_a_warning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", 100)
+    path = tmp_path / "large.png"
+    path.write_bytes(png(96, 96, 1, GREY, b"\xff" * 12))
+    assert load_picture(path).shape == (96, 96, 4)
+
+
+def test_zero_width(tmp_path: Path) -> None:
+    path = tmp_path / "zero.png"
+    path.write_bytes(png(0, 3, 8, GREY, b""))
+    with pytest.raises(DrawingError):
+        load_picture(path)
+
+
+def test_failed_save_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    picture = np.zeros((4, 4, 4), np.uint8)
+    with pytest.raises(LampblackError, match=r"none.a\.png"):
+        save_picture(tmp_path / "none" / "a.png", picture)
+
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, os.strerror(28))
+
+    monkeypatch.setattr(Image.Image, "save", full)
+    with pytest.raises(LampblackError, match="No space left"):
+        save_picture(tmp_path / "a.png", picture)
+
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Image.Image, "save", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        save_picture(tmp_path / "a.png", picture)
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,92 @@
+"""Frames found, ordered and chosen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from lampblack.drawing import Frame, find_frames, parse_frames, select_frames
+from lampblack.errors import DrawingError
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name in ("a.10.png", "a.2.png", "a.0001.PNG", "b0003.png", "notes.txt", ".a.0004.png"):
+        (tmp_path / name).touch()
+    (tmp_path / "a.0007.png").mkdir()
+    return tmp_path
+
+
+def numbers(frames: list[Frame]) -> list[int | None]:
+    return [frame.number for frame in frames]
+
+
+def test_folder_in_order_of_number(folder: Path) -> None:
+    assert numbers(find_frames([folder])) == [1, 2, 3, 10]
+
+
+def test_files_keep_their_order_and_count_once(folder: Path) -> None:
+    named = [folder / "a.10.png", str(folder / "b0003.png"), folder / "a.10.png"]
+    assert find_frames(named) == [Frame(10, folder / "a.10.png"), Frame(3, folder / "b0003.png")]
+
+
+def test_pattern_matches_padding_and_longer_numbers(folder: Path) -> None:
+    assert numbers(find_frames([folder / "b%04d.png"])) == [3]
+    assert numbers(find_frames([folder / "a.%02d.png"])) == [10]
+    assert numbers(find_frames([folder / "a.%d.png"])) == [2, 10]
+
+
+def test_name_without_digits(tmp_path: Path) -> None:
+    (tmp_path / "hero.png").touch()
+    assert find_frames([tmp_path / "hero.png"]) == [Frame(None, tmp_path / "hero.png")]
+
+
+def test_gaps_and_shared_numbers_are_fine(tmp_path: Path) -> None:
+    for name in ("a.9.png", "b.9.png", "a.200.png"):
+        (tmp_path / name).touch()
+    assert numbers(find_frames([tmp_path])) == [9, 9, 200]
+
+
+@pytest.mark.parametrize("name", ["missing", "missing.png", "none.%04d.png", "no/x.%d.png"])
+def test_missing(folder: Path, name: str) -> None:
+    with pytest.raises(DrawingError):
+        find_frames([folder / name])
+
+
+def test_empty(tmp_path: Path) -> None:
+    with pytest.raises(DrawingError, match="holds no PNG"):
+        find_frames([tmp_path])
+    with pytest.raises(DrawingError, match="No drawing"):
+        find_frames([])
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("7", [7]),
+        ("1-20x2,25", [*range(1, 21, 2), 25]),
+        ("3, 1-2", [1, 2, 3]),
+        ("5-5", [5]),
+        ("1-4,2-3", [1, 2, 3, 4]),
+        ("0001-0003", [1, 2, 3]),
+    ],
+)
+def test_frame_lists(text: str, expected: list[int]) -> None:
+    assert parse_frames(text) == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", ",", "a", "1-", "-3", "1x2", "5-1", "1-9x0", "1--3", "1.5", "1-999999999", "9" * 5000],
+)
+def test_bad_frame_lists(text: str) -> None:
+    with pytest.raises(DrawingError):
+        parse_frames(text)
+
+
+def test_select() -> None:
+    frames = [Frame(n, Path(f"a.{n}.png")) for n in (1, 2, 5)]
+    assert numbers(select_frames(frames, parse_frames("2-9"))) == [2, 5]
+    with pytest.raises(DrawingError, match="from 1 to 5"):
+        select_frames(frames, [3])
