@@ -27,7 +27,7 @@ def test_folder_in_order_of_number(folder: Path) -> None:
 
 
 def test_files_keep_their_order_and_count_once(folder: Path) -> None:
-    named = [folder / "a.10.png", str(folder / "b0003.png"), folder / "a.10.png"]
+    named: list[str | Path] = [folder / "a.10.png", str(folder / "b0003.png"), folder / "a.10.png"]
     assert find_frames(named) == [Frame(10, folder / "a.10.png"), Frame(3, folder / "b0003.png")]
 
 

@@ -17,6 +17,9 @@ MAX_SWATCHES = 64
 _APART = 10
 """Levels by which some channel of two flat colours differs, or they are one colour."""
 
+_SMOOTH = 20
+"""Levels across a pixel's neighbourhood above which it is a blend of two areas."""
+
 _BELONGS = 28
 """Levels a pixel may stray from a swatch before it needs another one."""
 
@@ -39,7 +42,7 @@ class Palette:
 def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]:
     """The flat colours of ``fill`` and which of them each pixel wears.
 
-    A flat colour is one that neighbouring pixels share exactly; blends along edges take the
+    A flat colour is one that neighbouring pixels share exactly. Blends along edges take the
     label of the nearest pixel that is no blend. Painted areas, which have no flat colour,
     get the cells of a fixed lattice, so that their keys stay put from frame to frame.
 
@@ -54,10 +57,12 @@ def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]
         LampblackWarning: painted art, or more than ``MAX_SWATCHES`` colours, was grouped.
     """
     packed = _pack(fill)
-    smooth = mask & _is_smooth(fill)
+    smooth = mask & (_spread(fill, 1) <= _SMOOTH)
     if not smooth.any():
         smooth = mask
-    flats = _flat_colours(packed, smooth)
+    # Wide areas first: between them, tones of an airbrush share colours here and there too.
+    flats = _flat_colours(packed, mask & (_spread(fill, 2) == 0), _APART, _no_colours())
+    flats = _flat_colours(packed, _shared(packed, smooth), _BELONGS, flats)
     cells = _cells(packed)
     occupied = np.flatnonzero(np.bincount(cells[smooth], minlength=1 << 15))
     centres = _cell_centres(occupied)
@@ -78,28 +83,38 @@ def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]
     return _most_used_first(keys, np.where(mask, labels, np.int16(-1)))
 
 
-def _is_smooth(fill: Colours) -> Mask:
-    """Whether a pixel is part of an area rather than of the blend between two."""
+def _spread(fill: Colours, reach: int) -> NDArray[np.uint8]:
+    """Levels between the extremes of any channel, within ``reach`` of each pixel."""
     spread = np.zeros(fill.shape[:2], np.uint8)
     for channel in range(3):
         plane = fill[..., channel]
-        np.maximum(spread, highest(plane, 1) - lowest(plane, 1), out=spread)
-    return np.asarray(spread <= 20)
+        np.maximum(spread, highest(plane, reach) - lowest(plane, reach), out=spread)
+    return spread
 
 
-def _flat_colours(packed: NDArray[np.int32], smooth: Mask) -> NDArray[np.int16]:
-    """(K, 3) colours that neighbours share, most used first, each clear of the others."""
+def _shared(packed: NDArray[np.int32], smooth: Mask) -> Mask:
+    """Smooth pixels that wear the very colour of their left and upper neighbours."""
     same = smooth.copy()
     same[:, 1:] &= packed[:, 1:] == packed[:, :-1]
     same[1:] &= packed[1:] == packed[:-1]
-    values, counts = np.unique(packed[same], return_counts=True)
-    enough = counts >= max(8, 2e-4 * np.count_nonzero(smooth))
+    return same
+
+
+def _no_colours() -> NDArray[np.int16]:
+    return np.zeros((0, 3), np.int16)
+
+
+def _flat_colours(
+    packed: NDArray[np.int32], where: Mask, apart: int, kept: NDArray[np.int16]
+) -> NDArray[np.int16]:
+    """``kept``, and the colours found ``where``, most used first, each clear of the others."""
+    values, counts = np.unique(packed[where], return_counts=True)
+    enough = counts >= max(8, 2e-4 * np.count_nonzero(where))
     order = np.argsort(-counts[enough], kind="stable")
-    kept = np.zeros((0, 3), np.int16)
     for colour in _unpack(values[enough][order]):
         if len(kept) == MAX_SWATCHES:
             break
-        if not len(kept) or np.abs(kept - colour).max(axis=1).min() >= _APART:
+        if not len(kept) or np.abs(kept - colour).max(axis=1).min() >= apart:
             kept = np.vstack([kept, colour])
     return kept
 
