@@ -236,6 +236,15 @@ def test_enclosed_paper_belongs_to_the_figure() -> None:
     assert figure_mask(on_paper(art))[100, 150]
 
 
+def test_background_that_is_no_paper_warns() -> None:
+    across, _ = grid()
+    art = paint((across < 120, (200, 90, 40)), (across >= 120, (40, 90, 200)))
+    art[20:60, 20:200, :3] = 0
+    art[::7, :, :3] //= 2
+    with pytest.warns(LampblackWarning, match="not plain paper"):
+        take_apart(art)
+
+
 def test_grainy_scan() -> None:
     rng = np.random.default_rng(0)
     clean = on_paper(outlined(), (245, 243, 238)).astype(float)

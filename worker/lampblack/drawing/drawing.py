@@ -22,7 +22,8 @@ class Drawing:
         pixels: (H, W, 4) uint8, sRGB, straight alpha, as read.
         mask: (H, W) bool, True inside the figure (its line included).
         coverage: (H, W) float32 in 0..1, how much of the pixel the figure covers
-            (anti-aliased edge); 0 far outside the mask. Transparent art: its alpha.
+            (anti-aliased edge); 0 far outside the mask. Transparent art: its alpha, but
+            1 within line art, which is lit as if drawn on white paper.
         lines: (H, W) float32 in 0..1, the line drawing that predicts the normals: ink, or
             colour borders where no ink was drawn; 0 outside the mask.
         ink: (H, W) float32 in 0..1, coverage of the artist's line over the fill.

@@ -6,7 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cutout import Colours
-from .morphology import Mask, highest, lowest
+from .morphology import Mask, highest, lowest, without_specks
+
+_SHORTEST = 12
+"""Pixels of a border below which it is a fleck of an airbrush."""
 
 _STRONG = 16
 """Levels by which two fills must differ for their border to stand in for a line."""
@@ -30,7 +33,7 @@ def line_drawing(
     borders = mask & ~lowest(mask, 2)
     borders |= _colour_borders(fill, labels)
     inked = highest(ink > 0.3, 3)
-    lines = np.where(inked, ink, np.maximum(ink, borders))
+    lines = np.maximum(ink, without_specks(borders & ~inked, _SHORTEST))
     return np.where(mask, lines, np.float32(0)).astype(np.float32)
 
 
