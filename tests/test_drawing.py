@@ -224,6 +224,13 @@ def test_line_art_cut_by_the_frame_is_closed_there() -> None:
     assert not mask[139, 5]
 
 
+def test_line_art_may_touch_every_edge() -> None:
+    art = paint((line_art(), (0, 0, 0)))[40:200, 40:200]
+    mask = figure_mask(art)
+    assert mask[80, 80]
+    assert not any((mask[2, 2], mask[2, -3], mask[-3, 2], mask[-3, -3]))
+
+
 def test_outline_that_cannot_be_closed_warns() -> None:
     art = paint((ring(120, 120, 80, 4) & (grid()[0] > 120), (0, 0, 0)))
     with pytest.warns(LampblackWarning, match="not closed"):

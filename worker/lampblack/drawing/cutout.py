@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +27,14 @@ class Cutout:
         coverage: (H, W) float32 in 0..1.
         mask: (H, W) bool, True inside.
         grain: noise of the paper, in levels; 0 for art that never was on paper.
+        bare: (3,) uint8 sRGB, the paper within line art; None where fills were painted.
     """
 
     colour: Colours
     coverage: NDArray[np.float32]
     mask: Mask
     grain: float = 0.0
+    bare: Colours | None = None
 
 
 def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None) -> Cutout:
@@ -77,7 +79,8 @@ def _by_override(pixels: NDArray[np.uint8], inside: NDArray[np.float32]) -> Cuto
 def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
     alpha = pixels[..., 3].astype(np.float32) / 255
     if is_line_art(drawn):
-        return _cover_with_paper(pixels, _enclosed(drawn), alpha)
+        cutout = _cover_with_paper(pixels, _enclosed(drawn), alpha)
+        return replace(cutout, bare=np.full(3, 255, np.uint8))
     return Cutout(pixels[..., :3].copy(), alpha, drawn)
 
 
@@ -119,9 +122,10 @@ def _from_paper(picture: Colours) -> Cutout:
     drawn = without_specks(difference > tolerance, _DUST)
     if not drawn.any():
         raise DrawingError("The paper is blank.", "Choose a picture with a drawing on it.")
-    mask = _enclosed(drawn) if is_line_art(drawn) else ~outside_of(drawn, line_art=False)
+    line_art = is_line_art(drawn)
+    mask = _enclosed(drawn) if line_art else ~outside_of(drawn, line_art=False)
     colour, coverage = _lift(picture, paper, ~mask, difference, tolerance)
-    return Cutout(colour, coverage, coverage >= 0.5, grain)
+    return Cutout(colour, coverage, coverage >= 0.5, grain, paper if line_art else None)
 
 
 def _stray(picture: Colours, paper: NDArray[np.uint8]) -> NDArray[np.uint8]:

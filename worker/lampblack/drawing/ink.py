@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .cutout import Colours
+from .cutout import Colours, Cutout
 from .mask import figure_span, is_line_art
 from .morphology import (
     Mask,
@@ -29,26 +29,28 @@ _SAME_INK = 45
 """Levels a pixel may stray from the main ink and still be of it."""
 
 
-def find_ink(colour: Colours, mask: Mask) -> Mask:
+def find_ink(figure: Cutout) -> Mask:
     """Where the figure is line rather than fill.
-
-    Args:
-        colour: (H, W, 3) uint8 sRGB.
-        mask: (H, W) bool, the figure.
 
     A line is a valley of luma that a closing fills: narrow and darker than what lies on its
     sides. The colour most valleys share is the main ink; all that wears it is line, even
     where there is fill on one side only or none (outlines, whiskers), except areas wider
-    than the drawing's own lines: those are filled blacks.
+    than the drawing's own lines: those are filled blacks. In line art all that is darker than
+    the bare paper is line, however faint or broken.
 
     Returns:
         (H, W) bool; nowhere True when the drawing has fewer lines than would go a quarter
         of the way around it; the whole figure when it is bare line that encloses nothing.
     """
+    colour, mask = figure.colour, figure.mask
     span = figure_span(mask)
     light = luma(colour)
     hairline = max(2, round(_HAIRLINE * span))
     brush = max(4, round(_BRUSH * span))
+    if figure.bare is not None:
+        paper = luma(figure.bare)
+        marks = _deep(np.where(mask, paper - np.minimum(light, paper), np.uint8(0)), hairline)
+        return marks & ~_wide_parts(marks, brush)
     lines = _valleys(light, mask, hairline)
     main = _main_ink(colour, _valleys(light, mask, brush) | lines)
     if main is not None:
@@ -75,8 +77,12 @@ def _valleys(light: NDArray[np.uint8], mask: Mask, reach: int) -> Mask:
     hill = highest(np.where(mask, light, np.uint8(0)), reach)
     depth = lowest(np.where(mask, hill, np.uint8(255)), reach) - light
     depth[~mask] = 0
-    deepest = highest(depth, reach)
-    return np.asarray((depth >= _SHALLOWEST) & (depth >= deepest // 2))
+    return _deep(depth, reach)
+
+
+def _deep(depth: NDArray[np.uint8], reach: int) -> Mask:
+    """Pixels at least half as deep as the deepest within ``reach``."""
+    return np.asarray((depth >= _SHALLOWEST) & (depth >= highest(depth, reach) // 2))
 
 
 def _main_ink(colour: Colours, lines: Mask) -> NDArray[np.int16] | None:

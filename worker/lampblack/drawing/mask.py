@@ -93,8 +93,7 @@ def outside_of(drawn: Mask, *, line_art: bool) -> Mask:
         return _reached(np.pad(~drawn, 1, constant_values=True))[1:-1, 1:-1]
     gaps = [max(1.0, share / 2 * figure_span(drawn)) for share in _GAPS]
     margin = int(gaps[-1]) + 2
-    empty = np.pad(~drawn, margin, constant_values=True)
-    _close_at_edges(empty, ~drawn, margin)
+    empty = np.pad(_closed_at_edges(~drawn), margin - 1, constant_values=True)
     depth = depth_within(empty)
     widest = chosen = _rolled_around(empty, depth, gaps[-1])
     for gap in gaps[:-1]:
@@ -114,13 +113,16 @@ def _rolled_around(empty: Mask, depth: NDArray[np.float32], gap: float) -> Mask:
     return np.asarray(outside)
 
 
-def _close_at_edges(empty: Mask, inner: Mask, margin: int) -> None:
-    """Wall off, in the margin of ``empty``, what lies between lines that leave the picture."""
+def _closed_at_edges(empty: Mask) -> Mask:
+    """``empty`` in a frame one pixel wide, walled where lines leave the picture and between
+    them; only the stretches of the edge that hold a corner stay open."""
+    framed = np.pad(empty, 1, constant_values=True)
     for side in range(4):
-        edge = np.rot90(inner, side)[0]
+        edge = np.rot90(empty, side)[0]
         from_corner = np.logical_and.accumulate(edge)
         from_corner |= np.logical_and.accumulate(edge[::-1])[::-1]
-        np.rot90(empty, side)[:margin, margin:-margin] &= from_corner
+        np.rot90(framed, side)[0, 1:-1] = from_corner
+    return framed
 
 
 def _reached(empty: Mask) -> Mask:

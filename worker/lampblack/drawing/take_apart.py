@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -58,10 +59,15 @@ def take_apart(
 
     whole = cut_out(pixels, inside)
     window = _window(whole)
-    figure = Cutout(whole.colour[window], whole.coverage[window], whole.mask[window], whole.grain)
+    figure = replace(
+        whole,
+        colour=whole.colour[window],
+        coverage=whole.coverage[window],
+        mask=whole.mask[window],
+    )
     if given is not None:
         given = np.where(figure.mask, given[window], np.float32(0)).astype(np.float32)
-    lines = find_ink(figure.colour, figure.mask) if given is None else given >= 0.5
+    lines = find_ink(figure) if given is None else given >= 0.5
     layers = separate(figure, lines, given)
     fill = layers.fill
     if figure.grain > _CLEAN:
