@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
 """(row, column) of the corners within the cell."""
@@ -56,6 +57,6 @@ def pieces(code: int) -> Pieces:
         # A fan about the second corner of the run: no triangle lies along one side.
         about = len(run) > 2
         ring = [*run[about:], end, start, *run[:about]]
-        triangles += [(ring[0], a, b) for a, b in zip(ring[1:], ring[2:], strict=False)]
+        triangles += [(ring[0], a, b) for a, b in pairwise(ring[1:])]
         open_edges.append((end, start))
     return Pieces(tuple(triangles), tuple(open_edges))

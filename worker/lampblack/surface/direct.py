@@ -11,10 +11,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .compiled import compiled
 from .multigrid import Graph, Multigrid, apply_laplacian
 
-TOLERANCE = 1e-4
-"""Of the residual, against that of a flat figure."""
+TOLERANCE = 1e-3
+"""Of the residual, against that of a flat figure: about 0.02 pixels at a height of 300."""
 MAX_ITERATIONS = 60
 
 
@@ -30,40 +31,55 @@ def inflate_direct(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDA
     """
     height = np.zeros(mask.shape, np.float32)
     if mask.any():
-        graph, slopes = _pixel_graph(normals, mask)
-        height[mask] = _conjugate_gradient(graph, slopes)
+        count = np.count_nonzero(mask)
+        number = np.full(mask.shape, -1, np.int32)
+        number[mask] = np.arange(count, dtype=np.int32)
+        starts, ends, weights, inverse, rhs = _link_pixels(normals, number, count)
+        height[mask] = _conjugate_gradient(Graph(starts, ends, weights, inverse), rhs)
     return height
 
 
-def _pixel_graph(
-    normals: NDArray[np.float32], mask: NDArray[np.bool_]
-) -> tuple[Graph, NDArray[np.float64]]:
-    """The links between neighbouring pixels of the mask, and the right-hand side b (N,)."""
-    across = (normals[:, 1:] + normals[:, :-1]) / 2
-    down = (normals[1:] + normals[:-1]) / 2
-    inside_x, inside_y = mask[:, 1:] & mask[:, :-1], mask[1:] & mask[:-1]
-    weight_x, weight_y = across[..., 2] ** 2 * inside_x, down[..., 2] ** 2 * inside_y
-    rise_x = -across[..., 0] * across[..., 2] * inside_x  # weight times dz/dcolumn
-    rise_y = down[..., 1] * down[..., 2] * inside_y  # weight times dz/drow
-    divergence = np.zeros(mask.shape)
-    divergence[:, 1:] += rise_x
-    divergence[:, :-1] -= rise_x
-    divergence[1:] += rise_y
-    divergence[:-1] -= rise_y
-
-    number = np.full(mask.shape, -1, np.int32)
-    number[mask] = np.arange(np.count_nonzero(mask), dtype=np.int32)
-    weights = np.zeros((*mask.shape, 4), np.float32)
-    ends = np.zeros((*mask.shape, 4), np.int32)
-    weights[1:, :, 0], ends[1:, :, 0] = weight_y, number[:-1]
-    weights[:, 1:, 1], ends[:, 1:, 1] = weight_x, number[:, :-1]
-    weights[:, :-1, 2], ends[:, :-1, 2] = weight_x, number[:, 1:]
-    weights[:-1, :, 3], ends[:-1, :, 3] = weight_y, number[1:]
-    of_pixel = weights[mask]
-    linked = of_pixel > 0
-    starts = np.concatenate([[0], np.cumsum(np.count_nonzero(linked, axis=1))]).astype(np.int32)
-    graph = Graph(starts, ends[mask][linked], of_pixel[linked], of_pixel.sum(axis=1))
-    return graph, divergence[mask]
+@compiled
+def _link_pixels(
+    normals: NDArray[np.float32], number: NDArray[np.int32], count: int
+) -> tuple[
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float64],
+]:
+    """The fields of the pixels' ``Graph`` and b (N,); ``number`` is -1 outside the mask."""
+    rows, columns = number.shape
+    starts = np.zeros(count + 1, np.int32)
+    ends = np.empty(4 * count, np.int32)
+    weights = np.empty(4 * count, np.float32)
+    inverse = np.zeros(count, np.float32)
+    rhs = np.zeros(count)
+    used = 0
+    for row in range(rows):
+        for column in range(columns):
+            i = number[row, column]
+            if i < 0:
+                continue
+            total = np.float32(0)
+            for down, right in ((-1, 0), (0, -1), (0, 1), (1, 0)):
+                r, c = row + down, column + right
+                if r < 0 or c < 0 or r >= rows or c >= columns or number[r, c] < 0:
+                    continue
+                nx = (normals[row, column, 0] + normals[r, c, 0]) / np.float32(2)
+                ny = (normals[row, column, 1] + normals[r, c, 1]) / np.float32(2)
+                nz = (normals[row, column, 2] + normals[r, c, 2]) / np.float32(2)
+                weight = nz * nz
+                if weight > 0:
+                    ends[used], weights[used] = number[r, c], weight
+                    used += 1
+                    total += weight
+                    rhs[i] += np.float64(nx * nz) * right - np.float64(ny * nz) * down
+            if total > 0:
+                inverse[i] = np.float32(1) / total
+            starts[i + 1] = used
+    return starts, ends[:used].copy(), weights[:used].copy(), inverse, rhs
 
 
 def _conjugate_gradient(graph: Graph, rhs: NDArray[np.float64]) -> NDArray[np.float64]:

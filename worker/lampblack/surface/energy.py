@@ -29,7 +29,7 @@ def whole_windows(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(H, W) bool: pixels whose 3x3 window lies in ``mask``, where eq. 6 can be read."""
     padded = np.pad(mask, 1)
     columns = padded[:, :-2] & padded[:, 1:-1] & padded[:, 2:]
-    return columns[:-2] & columns[1:-1] & columns[2:]
+    return np.asarray(columns[:-2] & columns[1:-1] & columns[2:])
 
 
 def energy_paper(

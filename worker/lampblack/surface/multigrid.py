@@ -11,6 +11,7 @@ multigrid method", ETNA 37, 2010.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,13 +35,16 @@ class Graph:
         starts: (N + 1,) where each node's links start.
         ends: (L,) the node at the other end.
         weights: (L,) non-negative.
-        diagonal: (N,) the sum of each node's weights.
+        inverse: (N,) one over the sum of each node's weights; 0 where it has no links.
     """
 
     starts: Ints
     ends: Ints
     weights: Floats
-    diagonal: Floats
+    inverse: Floats
+
+    def __len__(self) -> int:
+        return len(self.inverse)
 
 
 class Multigrid:
@@ -49,7 +53,7 @@ class Multigrid:
     def __init__(self, graph: Graph) -> None:
         self._graphs = [graph]
         self._aggregates: list[Ints] = []
-        while len(self._graphs[-1].diagonal) > COARSEST:
+        while len(self._graphs[-1]) > COARSEST:
             aggregate, coarse = _coarsen(self._graphs[-1])
             self._aggregates.append(aggregate)
             self._graphs.append(coarse)
@@ -64,21 +68,26 @@ class Multigrid:
             return self._inverse @ residual
         graph, aggregate = self._graphs[level], self._aggregates[level]
         x = np.empty_like(residual)
-        coarse = np.zeros(len(self._graphs[level + 1].diagonal), np.float32)
-        links = graph.starts, graph.ends, graph.weights, graph.diagonal
+        coarse = np.zeros(len(self._graphs[level + 1]), np.float32)
+        links = graph.starts, graph.ends, graph.weights, graph.inverse
         _smooth_down(*links, residual, x)
         _restrict(*links[:3], residual, x, aggregate, coarse)
         _smooth_up(*links, residual, x, aggregate, self._krylov(level + 1, coarse))
         return x
 
     def _krylov(self, level: int, residual: Floats) -> Floats:
-        """Up to two flexible conjugate gradient steps on a coarse level."""
+        """Up to two flexible conjugate gradient steps on a coarse level.
+
+        The first coarse level takes one: visiting it twice costs more than it saves.
+        """
         first = self._cycle(level, residual)
         if level == len(self._aggregates):
             return first
         image, energy, work, before = self._apply(level, first, residual)
         if energy <= 0:
             return first
+        if level == 1:
+            return np.float32(work / energy) * first
         residual = residual - np.float32(work / energy) * image
         if float(residual @ residual) <= 0.0625 * before:
             return np.float32(work / energy) * first
@@ -110,10 +119,10 @@ def _coarsen(graph: Graph) -> tuple[Ints, Graph]:
 
 def _pseudo_inverse(graph: Graph) -> Floats:
     """Dense inverse on everything but the constants of the connected parts."""
-    count = len(graph.diagonal)
-    dense = np.diag(graph.diagonal.astype(np.float64))
-    rows = np.repeat(np.arange(count), np.diff(graph.starts))
-    dense[rows, graph.ends] -= graph.weights
+    count = len(graph)
+    dense = np.zeros((count, count))
+    dense[np.repeat(np.arange(count), np.diff(graph.starts)), graph.ends] = -graph.weights
+    np.fill_diagonal(dense, -dense.sum(axis=1))
     return np.linalg.pinv(dense, rcond=1e-9, hermitian=True).astype(np.float32)
 
 
@@ -161,7 +170,7 @@ def _sum_links(
     coarse_starts = np.zeros(count + 1, np.int32)
     coarse_ends = np.empty(len(ends), np.int32)
     coarse_weights = np.empty(len(ends), np.float32)
-    diagonal = np.zeros(count, np.float32)
+    inverse = np.zeros(count, np.float32)
     slot = np.full(count, -1, np.int32)
     used = 0
     for a in range(count):
@@ -179,10 +188,13 @@ def _sum_links(
                     used += 1
                 else:
                     coarse_weights[slot[b]] += weights[k]
+        total = np.float32(0)
         for k in range(start, used):
-            diagonal[a] += coarse_weights[k]
+            total += coarse_weights[k]
+        if total > 0:
+            inverse[a] = np.float32(1) / total
         coarse_starts[a + 1] = used
-    return coarse_starts, coarse_ends[:used].copy(), coarse_weights[:used].copy(), diagonal
+    return coarse_starts, coarse_ends[:used].copy(), coarse_weights[:used].copy(), inverse
 
 
 @compiled
@@ -190,8 +202,8 @@ def apply_laplacian(
     starts: Ints,
     ends: Ints,
     weights: Floats,
-    x: NDArray[np.floating],
-    image: NDArray[np.floating],
+    x: NDArray[np.floating[Any]],
+    image: NDArray[np.floating[Any]],
 ) -> None:
     """The Laplacian of x, by differences: exactly 0 for a constant."""
     for i in range(len(x)):
@@ -204,16 +216,15 @@ def apply_laplacian(
 
 @compiled
 def _smooth_down(
-    starts: Ints, ends: Ints, weights: Floats, diagonal: Floats, residual: Floats, x: Floats
+    starts: Ints, ends: Ints, weights: Floats, inverse: Floats, residual: Floats, x: Floats
 ) -> None:
     """Gauss-Seidel from zero, first node to last."""
     x[:] = 0
     for i in range(len(x)):
-        if diagonal[i] > 0:
-            total = residual[i]
-            for k in range(starts[i], starts[i + 1]):
-                total += weights[k] * x[ends[k]]
-            x[i] = total / diagonal[i]
+        total = residual[i]
+        for k in range(starts[i], starts[i + 1]):
+            total += weights[k] * x[ends[k]]
+        x[i] = total * inverse[i]
 
 
 @compiled
@@ -240,7 +251,7 @@ def _smooth_up(
     starts: Ints,
     ends: Ints,
     weights: Floats,
-    diagonal: Floats,
+    inverse: Floats,
     residual: Floats,
     x: Floats,
     aggregate: Ints,
@@ -251,8 +262,7 @@ def _smooth_up(
         if aggregate[i] >= 0:
             x[i] += coarse[aggregate[i]]
     for i in range(len(x) - 1, -1, -1):
-        if diagonal[i] > 0:
-            total = residual[i]
-            for k in range(starts[i], starts[i + 1]):
-                total += weights[k] * x[ends[k]]
-            x[i] = total / diagonal[i]
+        total = residual[i]
+        for k in range(starts[i], starts[i + 1]):
+            total += weights[k] * x[ends[k]]
+        x[i] = total * inverse[i]

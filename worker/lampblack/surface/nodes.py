@@ -129,8 +129,8 @@ def _mask_edge(
         & (before_column < mask.shape[1])
     )
     known[known] = mask[before_row[known], before_column[known]]
-    here = height[row, column]
+    here = height[row, column].astype(np.float32, copy=False)
     slope = np.zeros_like(here)
     slope[known] = here[known] - height[before_row[known], before_column[known]]
     x, y = column + 0.5 + right / 2, row + 0.5 + down / 2
-    return np.stack([x, y, here + slope / 2], axis=1).astype(np.float32)
+    return np.stack([x, y, here + slope / 2], axis=1, dtype=np.float32, casting="same_kind")

@@ -111,8 +111,8 @@ def _front(nodes: Nodes) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     side.append(nodes.link_right[:-1])
     code = np.zeros((rows, columns), np.uint8)
     for k in range(4):
-        code |= (nodes.number[window[k]] >= 0).astype(np.uint8) << k
-        code |= side[k].astype(np.uint8) << (4 + k)
+        code[nodes.number[window[k]] >= 0] |= np.uint8(1 << k)
+        code[side[k]] |= np.uint8(16 << k)
     slots = [nodes.number[w] for w in window]
     for k in range(4):
         ahead, behind = cells.HEADINGS[k]
