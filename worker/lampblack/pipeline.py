@@ -102,7 +102,7 @@ class Pipeline:
         if step > 1:
             normals, mask = _shrink_normals(normals, mask, step)
         height = solve(normals, mask, solver=self.options.solver)
-        return guided_filter(height, normals, mask) * np.float32(step)
+        return guided_filter(height, mask) * np.float32(step)
 
     def relief(self, drawing: Drawing, *, relief_scale: float = 1.0, stride: int = 1) -> Relief:
         """The figure's closed mesh in canvas pixels, one vertex every ``stride`` pixels."""

@@ -37,7 +37,7 @@ def bench_normals(picture: NDArray[np.uint8], runs: int = 5) -> dict[str, float]
         moment = timed("take_apart", moment)
         normals = predictor.predict(drawing.lines, drawing.mask)
         moment = timed("normals", moment)
-        height = guided_filter(solve(normals, drawing.mask), normals, drawing.mask)
+        height = guided_filter(solve(normals, drawing.mask), drawing.mask)
         moment = timed("surface", moment)
         build_relief(height, drawing.mask)
         moment = timed("mesh", moment)
