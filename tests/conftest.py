@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 from lampblack.cache import ArrayCache
 from lampblack.drawing import save_picture
 from lampblack.pipeline import Pipeline
-from numpy.typing import NDArray
 
 
 @pytest.fixture(autouse=True)

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 import numpy as np
+
 from lampblack.cache import ArrayCache, digest
 
 

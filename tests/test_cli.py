@@ -15,12 +15,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
+
 from conftest import draw_ball
 from lampblack.cli import main
 from lampblack.drawing import load_picture, save_picture
 from lampblack.pipeline import Pipeline
 from lampblack.scene import decode_scene, default_scene, encode_scene
-from PIL import Image
 
 
 @dataclass(frozen=True)
@@ -41,9 +42,8 @@ def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> R
     def call(*arguments: object) -> Outcome:
         monkeypatch.setattr(sys, "argv", ["lampblack", *map(str, arguments)])
         handler = signal.getsignal(signal.SIGTERM)
-        with warnings.catch_warnings():
-            with pytest.raises(SystemExit) as stop:
-                main()
+        with warnings.catch_warnings(), pytest.raises(SystemExit) as stop:
+            main()
         signal.signal(signal.SIGTERM, handler)
         shown = capfd.readouterr()
         assert "Traceback" not in shown.err + shown.out
@@ -317,8 +317,18 @@ def test_interrupting_leaves_finished_frames_and_nothing_else(
 
 
 def test_help_has_an_example_for_every_command(run: Run) -> None:
-    names = "render normals mesh palette scene train evaluate bench doctor".split()
-    for name in names:
+    names = [
+        "render",
+        "normals",
+        "mesh",
+        "palette",
+        "scene",
+        "train",
+        "evaluate",
+        "bench",
+        "doctor",
+    ]
+    for name in (*names, "doctor"):
         shown = run(name, "--help")
         assert shown.code == 0
         assert f"Example: lampblack {name}" in shown.out

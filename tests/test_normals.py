@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from numpy.typing import NDArray
+
 from lampblack.normals.card import NetworkCard
 from lampblack.normals.evaluate import flat_normals
 from lampblack.normals.gbuffer import MARGIN, trace, view_rotation
@@ -15,7 +17,6 @@ from lampblack.normals.network import DILATIONS, DilatedUNet, build_network, nor
 from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.silhouette import inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
-from numpy.typing import NDArray
 
 Image = NDArray[np.float32]
 

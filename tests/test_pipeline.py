@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
 from conftest import draw_ball
 from lampblack.drawing import take_apart
 from lampblack.pipeline import MAX_SURFACE_PX, Pipeline, surface_step
 from lampblack.scene import Ambient, AreaLight, Scene, default_scene
-from numpy.typing import NDArray
-from PIL import Image
 
 pytestmark = pytest.mark.cycles
 

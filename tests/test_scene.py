@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
 from lampblack.errors import SceneError
 from lampblack.scene import (
     Floor,

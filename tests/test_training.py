@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard, load_network, save_network, shipped_weights
 from lampblack.normals.evaluate import evaluate
@@ -60,7 +61,7 @@ def test_views_mirror_the_normals_with_the_drawing(models: Path) -> None:
         assert np.allclose(lengths[inside], 1, atol=0.02)
         assert not lengths[~inside].any()
         # Outwards is outwards: on the whole the normal's x grows with the pixel's x.
-        rows, columns = np.nonzero(inside)
+        _rows, columns = np.nonzero(inside)
         assert np.corrcoef(columns, truth[0][inside])[0, 1] > 0.3
 
 

@@ -71,9 +71,9 @@ def _network() -> str:
 
 
 def _cycles() -> str:
-    from ..pipeline import Pipeline
     from ..cache import ArrayCache
     from ..drawing import take_apart
+    from ..pipeline import Pipeline
     from ..scene import default_scene
 
     rows, columns = np.mgrid[-1:1:64j, -1:1:64j]

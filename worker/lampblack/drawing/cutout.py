@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import DrawingError, LampblackWarning
+from ..errors import DrawingError, LampblackWarning, NothingDrawnError
 from .mask import MIN_FIGURE, is_line_art, outside_of
 from .morphology import Mask, highest, lowest, without_specks
 
@@ -51,7 +51,9 @@ def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None
     alpha = pixels[..., 3]
     top = int(alpha.max())
     if top == 0:
-        raise DrawingError("The picture is fully transparent.", "Export the drawing with its ink.")
+        raise NothingDrawnError(
+            "The picture is fully transparent.", "Export the drawing with its ink."
+        )
     if inside is not None:
         cutout = _by_override(pixels, inside)
     elif np.count_nonzero(alpha < 128) > 0.001 * alpha.size:
@@ -121,7 +123,7 @@ def _from_paper(picture: Colours) -> Cutout:
     difference = _stray(picture, paper)
     drawn = without_specks(difference > tolerance, _DUST)
     if not drawn.any():
-        raise DrawingError("The paper is blank.", "Choose a picture with a drawing on it.")
+        raise NothingDrawnError("The paper is blank.", "Choose a picture with a drawing on it.")
     line_art = is_line_art(drawn)
     mask = _enclosed(drawn) if line_art else ~outside_of(drawn, line_art=False)
     colour, coverage = _lift(picture, paper, ~mask, difference, tolerance)

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import struct
-import tempfile
 from pathlib import Path
 from typing import BinaryIO
 
@@ -14,10 +11,11 @@ from numpy.typing import NDArray
 from PIL import Image
 from PIL.PngImagePlugin import PngImageFile
 
-from ..errors import DrawingError, LampblackError
+from ..atomic import atomic_file
+from ..errors import DrawingError
 
 MAX_SIDE = 16384
-MAX_PIXELS = 100_000_000
+MAX_PIXELS = 40_000_000
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _PLAIN_PNG = "Export it again as a PNG from your drawing program."
@@ -63,41 +61,13 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
 def save_picture(path: str | Path, picture: NDArray[np.uint8]) -> None:
     """Write ``picture``, (H, W, 4) uint8 sRGB with straight alpha, as a PNG.
 
-    The file appears whole or not at all: it is written under a temporary name in the same
-    folder and then renamed.
+    The file appears whole or not at all.
 
     Raises:
-        LampblackError: the folder is missing or not writable, or the disk is full.
+        OutputError: the folder is missing or not writable, or the disk is full.
     """
-    path = Path(path)
-    temporary: Path | None = None
-    try:
-        handle, name = tempfile.mkstemp(
-            prefix=f".{path.stem[:40]}.", suffix=".part", dir=path.parent
-        )
-        temporary = Path(name)
-        with os.fdopen(handle, "wb") as file:
-            Image.fromarray(picture).save(file, "PNG", compress_level=4)
-        temporary.chmod(0o666 & ~_umask())
-        temporary.replace(path)
-        temporary = None
-    except OSError as error:
-        raise LampblackError(
-            f"The picture {path} could not be written: {error.strerror or error}.",
-            "Check that the folder exists, may be written to and has room.",
-            str(error),
-        ) from error
-    finally:
-        if temporary is not None:
-            with contextlib.suppress(OSError):
-                temporary.unlink()
-
-
-def _umask() -> int:
-    """The process's umask, which mkstemp's private files otherwise ignore."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    with atomic_file(Path(path)) as file:
+        Image.fromarray(picture).save(file, "PNG", compress_level=4)
 
 
 def _check_header(file: BinaryIO, path: Path) -> int:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from pathlib import Path
 
 import numpy as np
 import trimesh
 
+from ..atomic import atomic_file
 from ..errors import LampblackError
 from .relief import Relief, check_relief
 
@@ -18,9 +17,6 @@ SUFFIXES = (".glb", ".obj", ".ply")
 def save_mesh(relief: Relief, path: Path | str) -> None:
     """Write the mesh in canvas pixels, right-handed: x right, y *up* from the canvas's top
     edge (so the figure lies at negative y), z towards the viewer.
-
-    The file is written beside ``path`` and then takes its place, so a failure leaves an
-    older file as it was.
 
     Raises:
         LampblackError: an unknown suffix, a mesh that is not sound, or a failed write.
@@ -42,30 +38,5 @@ def save_mesh(relief: Relief, path: Path | str) -> None:
     vertices = relief.vertices * np.array([1, -1, 1], np.float32)
     mesh = trimesh.Trimesh(vertices, relief.faces, process=False)
     data = mesh.export(file_type=suffix[1:])
-    try:
-        _replace(target, data.encode() if isinstance(data, str) else bytes(data))
-    except OSError as error:
-        raise LampblackError(
-            f"The mesh could not be written to {target}.",
-            "Check that the folder exists and has room, and that you may write to it.",
-            str(error),
-        ) from error
-
-
-def _replace(target: Path, data: bytes) -> None:
-    """Write ``data`` to ``target`` in one step."""
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        Path(temporary).chmod(0o666 & ~_umask())
-        Path(temporary).replace(target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    with atomic_file(target) as file:
+        file.write(data.encode() if isinstance(data, str) else bytes(data))
