@@ -120,13 +120,24 @@ class Scene:
         return self.materials.get(colour, self.default_material)
 
 
+def default_light(canvas: Canvas, x: float, y: float, z: float | None = None) -> AreaLight:
+    """A white light over (x, y), at the default height unless told otherwise.
+
+    Most of a figure is turned away from its light, so it is given more than power 1.
+    """
+    return AreaLight(
+        x=x,
+        y=y,
+        z=canvas.default_height if z is None else z,
+        size=max(1.0, 0.4 * canvas.default_height),
+        power=1.5,
+    )
+
+
 def default_scene(width: int, height: int) -> Scene:
     """One light above the upper left of a ``width`` x ``height`` canvas, no floor."""
     canvas = Canvas(width, height)
-    light = AreaLight(
-        x=0.25 * width, y=0.2 * height, z=canvas.default_height, size=0.2 * max(width, height)
-    )
-    return Scene(canvas=canvas, lights=(light,))
+    return Scene(canvas=canvas, lights=(default_light(canvas, 0.25 * width, 0.2 * height),))
 
 
 def encode_scene(scene: Scene) -> bytes:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..cache import ArrayCache, user_cache_folder
 from ..drawing import Drawing, load_picture, take_apart
 from ..errors import LampblackError, SceneError
-from ..scene import AreaLight, Scene, decode_scene
+from ..scene import MAX_LIGHTS, AreaLight, Canvas, Scene, decode_scene, default_light
 
 
 class QualityName(StrEnum):
@@ -88,12 +88,11 @@ def parse_light(text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def lights_at(texts: list[str], size: float) -> tuple[AreaLight, ...]:
-    """White lights of power 1 at each ``X,Y,Z``."""
-    lights = tuple(AreaLight(*parse_light(text), size=size) for text in texts)
-    if len(lights) > 4:
-        raise SceneError(f"{len(lights)} lights were named; 4 is the most.")
-    return lights
+def lights_at(texts: list[str], canvas: Canvas) -> tuple[AreaLight, ...]:
+    """A default light at each ``X,Y,Z``."""
+    if len(texts) > MAX_LIGHTS:
+        raise SceneError(f"{len(texts)} lights were named; {MAX_LIGHTS} is the most.")
+    return tuple(default_light(canvas, *parse_light(text)) for text in texts)
 
 
 def check_suffix(path: Path, *suffixes: str) -> None:

@@ -80,7 +80,18 @@ def render(
     if frames is not None:
         found = select_frames(found, parse_frames(frames))
     _prepare_output(output, found)
-    settings = None if scene is None else read_scene(scene)
+    read = None if scene is None else read_scene(scene)
+    lights_at(light or [], Canvas(1, 1))  # a mistyped light is told before any work
+
+    def stage(width: int, height: int) -> Scene:
+        """The scene for a drawing of this size: the file's or the default, with the options."""
+        staged = read or default_scene(width, height)
+        if light:
+            staged = replace(staged, lights=lights_at(light, Canvas(width, height)))
+        if floor is not None:
+            staged = replace(staged, floor=Floor(floor))
+        return staged if quality is None else replace(staged, quality=quality.value)
+
     with Pipeline(open_cache(), PipelineOptions(grids, solver.value)) as pipeline:
         job = _Job(pipeline, output, len(found) == 1, {})
         job.mask = None if mask is None else load_picture(mask)
@@ -91,17 +102,7 @@ def render(
             for frame in found:
                 try:
                     picture = load_picture(frame.path)
-                    height, width = picture.shape[:2]
-                    if settings is None:
-                        settings = default_scene(width, height)
-                    if light:
-                        at = lights_at(light, size=0.2 * max(width, height))
-                        settings = replace(settings, lights=at)
-                    if floor is not None:
-                        settings = replace(settings, floor=Floor(floor))
-                    if quality is not None:
-                        settings = replace(settings, quality=quality.value)
-                    job.light(frame, picture, settings)
+                    job.light(frame, picture, stage(picture.shape[1], picture.shape[0]))
                 except OutputError:
                     raise
                 except LampblackError as error:
@@ -123,20 +124,24 @@ class _Job:
     lit: dict[str, Path]
     mask: NDArray[np.uint8] | None = None
     ink: NDArray[np.uint8] | None = None
+    canvas: Canvas | None = None
     unlit: int = 0
 
     def light(self, frame: Frame, picture: NDArray[np.uint8], scene: Scene) -> None:
         """Light one frame and write it; a drawing met before is only copied."""
         target = self.output / frame.path.name
         height, width = picture.shape[:2]
-        if (scene.canvas.width, scene.canvas.height) != (width, height):
+        canvas = Canvas(width, height)
+        if self.canvas is None:
+            self.canvas = scene.canvas
+        if canvas != self.canvas:
             warnings.warn(
-                f"{frame.path.name} is {width} x {height} pixels, the scene was made for "
-                f"{scene.canvas.width} x {scene.canvas.height}; lights keep their pixel positions.",
+                f"{frame.path.name} is {width} x {height} pixels, not {self.canvas.width} x "
+                f"{self.canvas.height} like the scene or the first frame.",
                 LampblackWarning,
                 stacklevel=2,
             )
-            scene = replace(scene, canvas=Canvas(width, height))
+        scene = replace(scene, canvas=canvas)
         key = digest(picture, scene)
         earlier = self.lit.get(key)
         if earlier is not None:
@@ -188,7 +193,8 @@ def _write_sheet(path: Path, frames: list[Frame], output: Path) -> None:
     chosen = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, 12).round().astype(int))]
     drawn = [load_picture(frame.path) for frame in chosen]
     lit = [load_picture(output / frame.path.name) for frame in chosen]
-    save_picture(path, contact_sheet([drawn, lit]))
+    rows = range(0, len(chosen), 6)
+    save_picture(path, contact_sheet([r[i : i + 6] for i in rows for r in (drawn, lit)]))
 
 
 def _summarise(job: _Job, failed: list[Frame], total: int, output: Path) -> None:
