@@ -36,7 +36,7 @@ def child() -> Iterator[RenderChild]:
 
 def quality(spp: int, scale: float = 1, floor_spp: int = 16) -> Quality:
     sampling = Sampling(scale, 512, spp)
-    return Quality(sampling, sampling, Sampling(0.5, 512, floor_spp), "high", 1)
+    return Quality(sampling, sampling, Sampling(0.5, 512, floor_spp), 1, "high")
 
 
 def height_relief(height: Heights, mask: NDArray[np.bool_]) -> Relief:
@@ -110,7 +110,7 @@ def test_light_is_calibrated_and_falls_off(child: RenderChild, z: float, size: f
     inner = (slice(4, -4), slice(4, -4))
     seen = passes.lights[0].diffuse[inner]
     assert seen.mean() == pytest.approx(expected[inner].mean(), rel=0.005)
-    assert abs(seen - expected[inner][..., None]).max() < 0.02
+    assert abs(seen - expected[inner][..., None]).max() < 0.03
 
 
 def test_ambient_shows_an_open_surface_as_drawn(child: RenderChild) -> None:
@@ -250,7 +250,7 @@ def test_low_quality_agrees_with_final(child: RenderChild) -> None:
     inside = np.hypot(row - 64, column - 64) < 47
     for a, b in ((low.lights[0], final.lights[0]), (low.ambient, final.ambient)):
         difference = enlarge(a.diffuse, (128, 128)) - enlarge(b.diffuse, (128, 128))
-        assert np.sqrt((difference[inside] ** 2).mean()) < 0.04
+        assert np.sqrt((difference[inside] ** 2).mean()) < 0.025
 
 
 def test_degenerate_relief_gives_finite_light(child: RenderChild) -> None:

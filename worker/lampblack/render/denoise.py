@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 FLOAT3 = 3
 MARGIN = 8  # mirrored around the image, whose borders the network otherwise gets wrong
-QUALITY = {"fast": 4, "balanced": 5, "high": 6}
+QUALITY = {"fast": 4, "high": 6}
 
 
 class Denoiser:
@@ -29,38 +29,27 @@ class Denoiser:
         self._check()
 
     def denoise(
-        self,
-        image: NDArray[np.float32],
-        quality: Literal["fast", "balanced", "high"],
-        albedo: NDArray[np.float32] | None = None,
-        normal: NDArray[np.float32] | None = None,
+        self, image: NDArray[np.float32], quality: Literal["fast", "high"]
     ) -> NDArray[np.float32]:
         """Denoise an (h, w, 3) scene-linear image.
 
-        ``albedo`` and ``normal`` are noise-free guides of the same shape; a normal is only of
-        use with an albedo.
+        No normals or albedo guide it: measured on demodulated light, they gain next to
+        nothing over an image without a silhouette.
 
         Raises:
             RuntimeError: the library's own message.
         """
-        guides = {b"color": image, b"albedo": albedo, b"normal": normal}
-        arrays = {
-            name: np.pad(array, ((MARGIN, MARGIN), (MARGIN, MARGIN), (0, 0)), "symmetric")
-            for name, array in guides.items()
-            if array is not None
-        }
-        output = np.zeros_like(arrays[b"color"])
-        arrays[b"output"] = output
+        noisy = np.pad(image, ((MARGIN, MARGIN), (MARGIN, MARGIN), (0, 0)), "symmetric")
+        output = np.zeros_like(noisy)
         height, width = output.shape[:2]
         lib = self._lib
         rt = lib.oidnNewFilter(self._device, b"RT")
         try:
-            for name, array in arrays.items():
+            for name, array in ((b"color", noisy), (b"output", output)):
                 lib.oidnSetSharedFilterImage(
                     rt, name, array.ctypes.data, FLOAT3, width, height, 0, 0, 0
                 )
             lib.oidnSetFilterBool(rt, b"hdr", True)
-            lib.oidnSetFilterBool(rt, b"cleanAux", albedo is not None)
             lib.oidnSetFilterInt(rt, b"quality", QUALITY[quality])
             lib.oidnCommitFilter(rt)
             lib.oidnExecuteFilter(rt)

@@ -28,7 +28,6 @@ PASSES = (
     "glossy_direct",
     "glossy_indirect",
     "glossy_color",
-    "normal",
 )
 
 Floats = NDArray[np.float32]
@@ -134,11 +133,8 @@ class Stage:
         _set_visible(self._floor, "dg" if subject == "figure" else "cdg")
 
     def set_sampling(self, sampling: Sampling) -> None:
-        """Set samples per pixel and adaptive threshold."""
-        cycles = self.scene.cycles
-        cycles.samples = sampling.spp
-        cycles.use_adaptive_sampling = sampling.threshold > 0
-        cycles.adaptive_threshold = sampling.threshold
+        """Set samples per pixel."""
+        self.scene.cycles.samples = sampling.spp
         # Cycles only looks at its settings again when told that the film changed.
         self.scene.render.filter_size = self.scene.render.filter_size
 
@@ -153,7 +149,7 @@ class Stage:
         cycles = self.scene.cycles
         cycles.pixel_filter_type = "BOX"
         cycles.use_auto_tile = False
-        cycles.use_denoising = False
+        cycles.use_denoising = cycles.use_adaptive_sampling = False
         cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
         cycles.light_sampling_threshold = 0
         cycles.caustics_reflective = cycles.caustics_refractive = False

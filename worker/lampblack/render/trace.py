@@ -9,6 +9,7 @@ from scipy import ndimage
 from .denoise import Denoiser
 from .engine import render_passes
 from .passes import LightPasses
+from .quality import Quality
 from .stage import Stage
 from .wire import Trace
 
@@ -30,18 +31,9 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     stage.set_view(job.view, sampling.size(*job.view[2:]), job.canvas)
     stage.set_subject("figure")
     passes = render_passes(stage.scene)
-    inside = passes["Combined"][..., 3] > 0.5
-    guide = np.repeat(passes["Combined"][..., 3:], 3, axis=2)
-
-    def light(kind: str) -> NDArray[np.float32]:
-        there = inside & (passes[f"{kind} Color"] > 0).any(axis=2)
-        if not there.any():
-            return np.zeros_like(guide)
-        noisy = np.nan_to_num(passes[f"{kind} Direct"] + passes[f"{kind} Indirect"])
-        clean = denoiser.denoise(noisy, job.quality.denoise, guide, passes["Normal"])
-        return fill(np.maximum(clean, 0), there)
-
-    diffuse, glossy = light("Diffuse"), light("Glossy")
+    diffuse, glossy = (
+        _clean(passes, kind, denoiser, job.quality) for kind in ("Diffuse", "Glossy")
+    )
     if job.floor is None:
         return LightPasses(diffuse, glossy)
     stage.set_sampling(job.quality.floor)
@@ -63,6 +55,31 @@ def fill(image: NDArray[np.float32], inside: NDArray[np.bool_]) -> NDArray[np.fl
     )
     filled: NDArray[np.float32] = image[row, column]
     return filled
+
+
+def _clean(
+    passes: dict[str, NDArray[np.float32]], kind: str, denoiser: Denoiser, quality: Quality
+) -> NDArray[np.float32]:
+    """One kind of light on the figure without its colour, denoised, (h, w, 3).
+
+    Filled before it is denoised: the denoiser smears the dark outside into the edge.
+    """
+    there = (passes["Combined"][..., 3] > 0.5) & (passes[f"{kind} Color"] > 0).any(axis=2)
+    light = np.nan_to_num(passes[f"{kind} Direct"] + passes[f"{kind} Indirect"])
+    if not there.any():
+        return np.zeros_like(light)
+    top, bottom, left, right = _bounding_box(there)
+    box = slice(top, bottom), slice(left, right)
+    clean = denoiser.denoise(fill(light[box], there[box]), quality.denoise)
+    height, width = there.shape
+    around = (top, height - bottom), (left, width - right), (0, 0)
+    return np.pad(np.maximum(clean, 0), around, "edge")
+
+
+def _bounding_box(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
+    """(top, bottom, left, right), ends excluded."""
+    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+    return int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
 
 
 def _floor_light(stage: Stage, subject: str) -> NDArray[np.float32]:
