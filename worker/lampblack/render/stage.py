@@ -50,6 +50,7 @@ class Stage:
         self._twin.scale = (1e-3, 1e-3, 1e-3)
         _set_visible(self._twin, "")
         self._floor = self._add("floor", _floor_mesh())
+        self._floor_places = {"standing": (0.0, 0.0, 0.0), "sunk": (0.0, 0.0, 0.0)}
         lamp = bpy.data.lights.new("lamp", "AREA")
         lamp.shape = "DISK"
         lamp.normalize = False
@@ -91,10 +92,19 @@ class Stage:
     def set_floor(self, floor: Floor | None, canvas: Canvas) -> None:
         """Hinge the floor at its line, pitched towards the viewer; None takes it away."""
         self._floor.hide_render = floor is None
-        if floor is not None:
-            hinge = _to_blender(np.array([[0, floor.y, 0]], np.float32), canvas)[0]
-            self._floor.location = (0, hinge[1], 0)
-            self._floor.rotation_euler = (math.radians(floor.pitch - 90), 0, 0)
+        if floor is None:
+            return
+        pitch, depth = math.radians(floor.pitch), 0.0
+        if self._surface is not None and len(self._surface[0]):
+            _, y, z = self._surface[0].T
+            above = (floor.y - y) * math.cos(pitch) + z * math.sin(pitch)
+            depth = min(0.0, float(above.min()) / canvas.default_height)
+        hinge = float(_to_blender(np.array([[0, floor.y, 0]], np.float32), canvas)[0, 1])
+        self._floor_places = {
+            "standing": (0.0, hinge, 0.0),
+            "sunk": (0.0, hinge + depth * math.cos(pitch), depth * math.sin(pitch)),
+        }
+        self._floor.rotation_euler = (pitch - math.pi / 2, 0, 0)
 
     def set_view(
         self, view: tuple[float, float, float, float], size: tuple[int, int], canvas: Canvas
@@ -127,10 +137,12 @@ class Stage:
     def set_subject(self, subject: Literal["figure", "floor", "bare floor"]) -> None:
         """Choose what the camera sees; the other is still there for the light it throws.
 
-        The floor never casts a shadow, so that a figure is not darkened where it dips below.
+        The floor never casts a shadow, and under the figure's own render it sinks until all
+        of the figure stands above it: a figure may dip below the line without a seam.
         """
         _set_visible(self._figure, {"figure": "cdgs", "floor": "dgs", "bare floor": ""}[subject])
         _set_visible(self._floor, "dg" if subject == "figure" else "cdg")
+        self._floor.location = self._floor_places["sunk" if subject == "figure" else "standing"]
 
     def set_sampling(self, sampling: Sampling) -> None:
         """Set samples per pixel."""
