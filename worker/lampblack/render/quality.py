@@ -57,8 +57,8 @@ QUALITIES: dict[str, Quality] = {
     # the same reason neither adaptive sampling nor the slower denoiser earns its time.
     "final": Quality(
         light=Sampling(1.0, 4096, 8),
-        ambient=Sampling(1.0, 4096, 16),
-        floor=Sampling(0.25, 1024, 32),
+        ambient=Sampling(1.0, 4096, 12),
+        floor=Sampling(0.25, 1024, 16),
         mesh_stride=1,
     ),
 }
