@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from lampblack.composite.colour import hex_linear, linear, srgb
 from lampblack.composite.composite import composite
-from lampblack.composite.resample import enlarge
+from lampblack.composite.resample import Band, enlarge
 from lampblack.drawing.drawing import Drawing
 from lampblack.drawing.palette import Palette, Swatch
 from lampblack.render.passes import LightPasses, Passes
@@ -189,7 +190,7 @@ def test_enlarge_keeps_pixel_edges(small: tuple[int, int]) -> None:
         edges = (column + 0.5) / width, (row + 0.5) / height, 0 * row
         return np.stack(edges, axis=2, dtype=np.float32)
 
-    large = enlarge(ramp(*small), (WIDTH, HEIGHT))
+    large = enlarge(ramp(*small), Band(WIDTH, HEIGHT, 0, HEIGHT))
     inner = (slice(2, -2), slice(2, -2))
     assert large[inner] == pytest.approx(ramp(WIDTH, HEIGHT)[inner], abs=1e-5)
 
@@ -197,3 +198,14 @@ def test_enlarge_keeps_pixel_edges(small: tuple[int, int]) -> None:
 def test_srgb_round_trip_is_exact_in_eight_bits() -> None:
     every = np.arange(256, dtype=np.float32) / 255
     assert np.rint(srgb(linear(every)) * 255).astype(int).tolist() == list(range(256))
+
+
+def test_bands_join_without_a_seam(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(0)
+    small = [rng.random((7, 11, 3)).astype(np.float32) for _ in range(4)]
+    passes = Passes((LightPasses(*small),), flat(0.2, size=(5, 4)))
+    drawing, scene = make_drawing(BACKGROUNDS[3]), make_scene(LIGHT, floor=Floor(20))
+    whole = composite(drawing, passes, scene)
+    module = import_module("lampblack.composite.composite")  # the function hides its name
+    monkeypatch.setattr(module, "BAND_PIXELS", 5 * WIDTH)
+    assert (composite(drawing, passes, scene) == whole).all()

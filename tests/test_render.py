@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lampblack.composite.resample import enlarge
+from lampblack.composite.resample import Band, enlarge
 from lampblack.errors import RenderError
 from lampblack.render.client import RenderChild
 from lampblack.render.quality import QUALITIES, Quality, Sampling
@@ -151,7 +151,9 @@ def test_light_lies_on_its_pixels(child: RenderChild, canvas: Canvas, scale: flo
         ambient=False,
         quality=quality(64, scale),
     )
-    seen = enlarge(child.render(request).lights[0].diffuse, (canvas.width, canvas.height))[..., 1]
+    seen = enlarge(
+        child.render(request).lights[0].diffuse, Band(canvas.width, canvas.height, 0, canvas.height)
+    )[..., 1]
     row, column = np.mgrid[: canvas.height, : canvas.width] + 0.5
     x, y = (column - at[0]) / radius, (row - at[1]) / radius
     inside = np.hypot(x, y) < 0.85
@@ -248,8 +250,9 @@ def test_low_quality_agrees_with_final(child: RenderChild) -> None:
     )
     row, column = np.mgrid[:128, :128] + 0.5
     inside = np.hypot(row - 64, column - 64) < 47
+    whole = Band(128, 128, 0, 128)
     for a, b in ((low.lights[0], final.lights[0]), (low.ambient, final.ambient)):
-        difference = enlarge(a.diffuse, (128, 128)) - enlarge(b.diffuse, (128, 128))
+        difference = enlarge(a.diffuse, whole) - enlarge(b.diffuse, whole)
         assert np.sqrt((difference[inside] ** 2).mean()) < 0.025
 
 

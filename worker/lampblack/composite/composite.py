@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,10 +12,14 @@ from ..drawing.drawing import Drawing
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene
 from .colour import hex_linear, linear, srgb
-from .resample import enlarge
+from .resample import Band, enlarge
 from .shadow import shade_background
 
 KNEE = 0.8
+BAND_PIXELS = 2_000_000
+
+Source = tuple[NDArray[np.float32], LightPasses]
+"""The weight, (3,) scene-linear, and the passes of a light."""
 
 
 def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint8]:
@@ -30,7 +37,29 @@ def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint
         for weight, source in zip(weights, (*passes.lights, passes.ambient), strict=True)
         if weight.any()
     ]
-    lit = _lay_ink(drawing, srgb(_lit_fill(drawing, scene, sources)))
+    width, height = drawing.size
+    lit = np.empty((height, width, 4), np.uint8)  # every band writes its own rows
+    rows = max(1, BAND_PIXELS // max(width, 1))
+    for top in range(0, height, rows):
+        band = Band(width, height, top, min(top + rows, height))
+        lit[top : band.bottom] = _composite_band(_rows(drawing, band), scene, sources, band)
+    return lit
+
+
+def _rows(drawing: Drawing, band: Band) -> Drawing:
+    """The part of ``drawing`` that lies in ``band``."""
+    arrays: dict[str, Any] = {
+        name: value[band.top : band.bottom]
+        for name, value in vars(drawing).items()
+        if isinstance(value, np.ndarray)
+    }
+    return replace(drawing, **arrays)
+
+
+def _composite_band(
+    drawing: Drawing, scene: Scene, sources: list[Source], band: Band
+) -> NDArray[np.uint8]:
+    lit = _lay_ink(drawing, srgb(_lit_fill(drawing, scene, sources, band)))
     drawn = _lay_ink(drawing, drawing.albedo)
 
     pixels = drawing.pixels.astype(np.float32) / 255
@@ -39,7 +68,7 @@ def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint
     behind = pixels[..., 3:] - coverage
     paint = pixels[..., 3:] * pixels[..., :3] - coverage * drawn
     if scene.floor is not None:
-        paint, behind = shade_background(paint, behind, coverage, sources)
+        paint, behind = shade_background(paint, behind, coverage, sources, band)
     alpha = coverage + behind
     colour = (coverage * lit + paint) / np.maximum(alpha, 1e-6)
     colour = np.where(alpha > 0, colour, pixels[..., :3])
@@ -49,7 +78,7 @@ def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint
 
 
 def _lit_fill(
-    drawing: Drawing, scene: Scene, sources: list[tuple[NDArray[np.float32], LightPasses]]
+    drawing: Drawing, scene: Scene, sources: list[Source], band: Band
 ) -> NDArray[np.float32]:
     """The fill under the lights, scene-linear (H, W, 3), at most 1."""
     albedo = linear(drawing.albedo)
@@ -59,10 +88,10 @@ def _lit_fill(
     glossy = np.array([m.glossy for m in materials])[drawing.labels][..., None]
     gloss = np.array([m.gloss for m in materials], np.float32)[drawing.labels][..., None]
 
-    light = _gather(sources, "diffuse", drawing.size) if diffuse.any() else np.float32(0)
+    light = _gather(sources, "diffuse", band) if diffuse.any() else np.float32(0)
     lit = np.where(diffuse, albedo * light, 0)
     if glossy.any():
-        shine = gloss * _gather(sources, "glossy", drawing.size)
+        shine = gloss * _gather(sources, "glossy", band)
         lit = lit + np.where(glossy, np.where(diffuse, shine, albedo * shine), 0)
     lit = _roll_off(lit, albedo)
     return np.where(diffuse | glossy, lit, albedo).astype(np.float32)
@@ -83,13 +112,11 @@ def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[n
     return np.asarray(lit * np.where(over > 0, bent / np.maximum(peak, KNEE), 1), np.float32)
 
 
-def _gather(
-    sources: list[tuple[NDArray[np.float32], LightPasses]], kind: str, size: tuple[int, int]
-) -> NDArray[np.float32]:
-    """Sum one kind of pass over the sources, (H, W, 3)."""
-    total = np.zeros((size[1], size[0], 3), np.float32)
+def _gather(sources: list[Source], kind: str, band: Band) -> NDArray[np.float32]:
+    """Sum one kind of pass over the sources, for the pixels of ``band``."""
+    total = np.zeros((band.bottom - band.top, band.width, 3), np.float32)
     for weight, source in sources:
-        total += weight * enlarge(getattr(source, kind), size)
+        total += weight * enlarge(getattr(source, kind), band)
     return total
 
 

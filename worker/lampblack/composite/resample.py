@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 
-def enlarge(image: NDArray[np.float32], size: tuple[int, int]) -> NDArray[np.float32]:
-    """Bilinear, (h, w, 3) to (H, W, 3) for ``size`` = (W, H); outer pixel edges coincide, so
-    the centre of column ``i`` lies at ``(i + 0.5) * w / W - 0.5`` among the old columns."""
-    width, height = size
-    return _along(_along(image, width, 1), height, 0)
+@dataclass(frozen=True)
+class Band:
+    """Rows ``top`` to ``bottom`` of a picture ``width`` x ``height``: large ones are composited
+    a band at a time, so that their memory does not grow with them."""
+
+    width: int
+    height: int
+    top: int
+    bottom: int
 
 
-def _along(image: NDArray[np.float32], count: int, axis: int) -> NDArray[np.float32]:
+def enlarge(image: NDArray[np.float32], band: Band) -> NDArray[np.float32]:
+    """Bilinear, (h, w, 3) to the (bottom - top, width, 3) of ``band``; the outer pixel edges of
+    the whole pictures coincide, so the centre of column ``i`` lies at
+    ``(i + 0.5) * w / width - 0.5`` among the old columns."""
+    rows = _along(image, band.height, np.arange(band.top, band.bottom), 0)
+    return _along(rows, band.width, np.arange(band.width), 1)
+
+
+def _along(
+    image: NDArray[np.float32], count: int, wanted: NDArray[np.intp], axis: int
+) -> NDArray[np.float32]:
     old = image.shape[axis]
     if old == count:
-        return image
-    at = np.clip((np.arange(count) + 0.5) * old / count - 0.5, 0, old - 1)
+        return image if len(wanted) == old else image[wanted[0] : wanted[-1] + 1]
+    at = np.clip((wanted + 0.5) * old / count - 0.5, 0, old - 1)
     before = at.astype(np.intp)
     after = np.minimum(before + 1, old - 1)
     shape = [1, 1, 1]
-    shape[axis] = count
+    shape[axis] = len(wanted)
     share = (at - before).astype(np.float32).reshape(shape)
     first = image.take(before, axis)
     return first + share * (image.take(after, axis) - first)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..render.passes import LightPasses
 from .colour import linear, srgb
-from .resample import enlarge
+from .resample import Band, enlarge
 
 FAINT = np.float32(1e-3)  # no light is no shadow, rather than 0 / 0
 
@@ -19,6 +19,7 @@ def shade_background(
     behind: NDArray[np.float32],
     coverage: NDArray[np.float32],
     sources: Sequence[tuple[NDArray[np.float32], LightPasses]],
+    band: Band,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Shade what shows behind the figure.
 
@@ -34,7 +35,7 @@ def shade_background(
     Returns:
         ``paint`` and ``behind`` with the shadow in them.
     """
-    ratio = floor_ratio(sources, (paint.shape[1], paint.shape[0]))
+    ratio = floor_ratio(sources, band)
     colour = np.clip(paint / np.maximum(behind, 1e-3), 0, 1)
     shaded = behind * srgb(np.minimum(linear(colour) * ratio, 1))
     over_white = srgb(np.minimum(ratio, 1))
@@ -46,17 +47,17 @@ def shade_background(
 
 
 def floor_ratio(
-    sources: Sequence[tuple[NDArray[np.float32], LightPasses]], size: tuple[int, int]
+    sources: Sequence[tuple[NDArray[np.float32], LightPasses]], band: Band
 ) -> NDArray[np.float32]:
-    """The floor's light with the figure over that without it, all sources together, (H, W, 3)
-    for ``size`` = (W, H); 1 where no light falls."""
+    """The floor's light with the figure over that without it, all sources together, for the
+    pixels of ``band``; 1 where no light falls."""
     floors = [
         (weight * source.floor, weight * source.open_floor)
         for weight, source in sources
         if source.floor is not None and source.open_floor is not None
     ]
     if not floors:
-        return np.ones((size[1], size[0], 3), np.float32)
+        return np.ones((band.bottom - band.top, band.width, 3), np.float32)
     cast = sum((floor for floor, _ in floors), FAINT)
     free = sum((open_floor for _, open_floor in floors), FAINT)
-    return enlarge(np.asarray(cast / free, np.float32), size)
+    return enlarge(np.asarray(cast / free, np.float32), band)
