@@ -31,3 +31,4 @@ clean:
 schema: install
 	$(BIN)/python -c "import json; from lampblack.scene import scene_schema; \
 	    print(json.dumps(scene_schema(), indent=2))" > protocol/scene.schema.json
+	$(BIN)/python -m lampblack.protocol.documents protocol

@@ -1,0 +1,68 @@
+"""Messages about drawings: which frame shows which, their pixels and their flat colours."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta
+
+from .fields import Colour, Count, Digest, FrameNumber, Message, Request
+from .planes import Plane
+
+Coefficient = Annotated[float, Meta(ge=-1e6, le=1e6)]
+Affine = Annotated[
+    tuple[Coefficient, Coefficient, Coefficient, Coefficient, Coefficient, Coefficient],
+    Meta(description="canvas to view, 2 x 3, row by row"),
+]
+
+
+class PutFrame(Message, frozen=True, kw_only=True):
+    """Frame ``frame`` shows the drawing ``digest``; its planes come along or were sent before.
+
+    Without planes the worker answers need_frame if it does not hold the drawing. Planes:
+    ``pixels`` (rgba8), then optionally ``mask`` and ``ink`` (a8), all of one size.
+    """
+
+    frame: FrameNumber
+    digest: Digest
+    camera: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+    planes: Annotated[
+        tuple[Plane, ...], Meta(max_length=3, description="of the frames that follow, in order")
+    ] = ()
+
+
+class NeedFrame(Message, frozen=True, kw_only=True):
+    """The worker does not hold a drawing that was announced; answered by put_frame."""
+
+    frame: FrameNumber
+    digest: Digest
+
+
+class DropFrame(Message, frozen=True, kw_only=True):
+    """The frame is no longer part of the animation."""
+
+    frame: FrameNumber
+
+
+class GetPalette(Message, frozen=True, kw_only=True):
+    """Ask for the flat colours of a frame; answered by palette."""
+
+    request: Request
+    frame: FrameNumber
+
+
+class Swatch(msgspec.Struct, frozen=True, kw_only=True):
+    """One flat colour and how many pixels of the fill wear it."""
+
+    colour: Colour
+    pixels: Count
+
+
+class Palette(Message, frozen=True, kw_only=True):
+    """The flat colours of a frame, most used first: the keys of the scene's materials."""
+
+    request: Request
+    frame: FrameNumber
+    digest: Digest
+    swatches: Annotated[tuple[Swatch, ...], Meta(max_length=256)]

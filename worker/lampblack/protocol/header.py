@@ -1,0 +1,86 @@
+"""The header frame: strict JSON in and out."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import msgspec
+
+from ..errors import SceneError
+from ..scene import Scene, decode_scene, encode_scene
+from .errors import ErrorCode, ProtocolError
+from .fields import Message
+from .preview import SetScene
+from .version import PREFIX
+
+
+def parse_header(header: bytes) -> dict[str, Any]:
+    """The header's JSON object. Of keys that come twice, the last counts.
+
+    ``1.0`` and ``1e0`` are the integer 1. What no double holds becomes infinite.
+
+    Raises:
+        ProtocolError: not strict JSON (``BAD_JSON``), or an absurd integer (``BAD_NUMBER``).
+    """
+    try:
+        tree = _PARSER.decode(header)
+    except msgspec.ValidationError as error:  # the one thing an untyped decode validates
+        raise ProtocolError(ErrorCode.BAD_NUMBER, str(error)) from error
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise ProtocolError(ErrorCode.BAD_JSON, str(error)) from error
+    assert isinstance(tree, dict)  # it begins as an object does
+    return tree
+
+
+def _number(text: str) -> float | int:
+    """Qt refuses numbers that overflow or that vanish; so does everyone."""
+    value = float(text)
+    if not math.isfinite(value):
+        return math.inf
+    if value == 0 and any(digit in "123456789" for digit in text.lower().split("e")[0]):
+        return math.inf
+    return int(value) if value.is_integer() and abs(value) < 1 << 53 else value
+
+
+_PARSER = msgspec.json.Decoder(float_hook=_number)
+
+
+def read_scene(tree: object) -> Scene:
+    """The scene of set_scene, fields this version does not know included.
+
+    Raises:
+        ProtocolError: ``BAD_SCENE``, with what is wrong in its details.
+    """
+    try:
+        return decode_scene(msgspec.json.encode(tree))
+    except SceneError as error:
+        details = " ".join(part for part in (error.what, error.details) if part)
+        raise ProtocolError(ErrorCode.BAD_SCENE, details) from error
+
+
+def read_message(tree: dict[str, Any], kind: type[Message]) -> Message:
+    """The message of type ``kind``; fields it does not declare are ignored.
+
+    Raises:
+        ProtocolError: ``BAD_FIELD`` or ``BAD_SCENE``, naming the field.
+    """
+    if kind is SetScene and "scene" in tree:
+        tree = {**tree, "scene": read_scene(tree["scene"])}
+    try:
+        return msgspec.convert(tree, kind)
+    except msgspec.ValidationError as error:
+        raise ProtocolError(ErrorCode.BAD_FIELD, str(error)) from error
+
+
+def message_tree(message: Message) -> dict[str, Any]:
+    """The message as plain JSON values, defaults and the scene's unknown fields included."""
+    tree: dict[str, Any] = msgspec.to_builtins(message)
+    if isinstance(message, SetScene):
+        tree["scene"] = msgspec.json.decode(encode_scene(message.scene))
+    return tree
+
+
+def write_header(message: Message) -> bytes:
+    """The header frame of a message."""
+    return PREFIX + msgspec.json.encode(message_tree(message))[1:]

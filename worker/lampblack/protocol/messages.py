@@ -1,0 +1,43 @@
+"""All messages, by who sends them and by their type on the wire."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+import msgspec
+
+from .fields import Message
+from .frames import DropFrame, GetPalette, NeedFrame, Palette, PutFrame
+from .job import Cancel, Done, FrameDone, Progress, Render
+from .preview import Image, Preview, SetScene, View
+from .session import Bye, ErrorMessage, Hello, Status, Welcome
+
+Sender = Literal["client", "worker"]
+
+FromClient = (
+    Hello | PutFrame | DropFrame | SetScene | Preview | View | GetPalette | Render | Cancel | Bye
+)
+FromWorker = (
+    Welcome
+    | NeedFrame
+    | Image
+    | Palette
+    | Progress
+    | FrameDone
+    | Done
+    | Status
+    | ErrorMessage
+    | Bye
+)
+
+
+def type_of(kind: type[Message]) -> str:
+    """The type a message goes by on the wire."""
+    return str(msgspec.inspect.type_info(kind).tag)  # type: ignore[attr-defined]
+
+
+BY_SENDER: dict[Sender, dict[str, type[Message]]] = {
+    "client": {type_of(kind): kind for kind in get_args(FromClient)},
+    "worker": {type_of(kind): kind for kind in get_args(FromWorker)},
+}
+MESSAGES: dict[str, type[Message]] = {**BY_SENDER["client"], **BY_SENDER["worker"]}
