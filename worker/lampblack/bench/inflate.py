@@ -14,6 +14,7 @@ from ..surface.solver import usable_normals
 
 WARM_RUNS = 3
 
+
 ELLIPSOIDS = (
     (0.0, -0.02, 0.27, 0.33, 0.25, 0.0),
     (0.0, 0.29, 0.20, 0.19, 0.20, 0.1),
@@ -71,7 +72,7 @@ def bench_inflate(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> dict
     start = time.perf_counter()
     adam = inflate_adam(usable, mask)
     seconds_adam = time.perf_counter() - start
-    figures = {
+    return {
         "seconds_direct": min(seconds),
         "seconds_adam": seconds_adam,
         "speedup_direct_over_adam": seconds_adam / min(seconds),
@@ -79,6 +80,5 @@ def bench_inflate(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> dict
         "energy_adam": energy_paper(adam, usable, mask),
         "energy_direct_compact": energy_compact(direct, usable, mask),
         "energy_adam_compact": energy_compact(adam, usable, mask),
+        "masked_pixels": int(np.count_nonzero(mask)),
     }
-    rounded = {name: float(f"{value:.4g}") for name, value in figures.items()}
-    return rounded | {"masked_pixels": int(np.count_nonzero(mask))}

@@ -56,6 +56,7 @@ def bench(
         from ..bench.final import bench_final
 
         figures = bench_final(picture, _scene(scene, drawing, picture.shape), reference=reference)
+    figures = {n: float(f"{v:.4g}") if isinstance(v, float) else v for n, v in figures.items()}
     if as_json:
         sys.stdout.write(msgspec.json.encode(figures).decode() + "\n")
         return

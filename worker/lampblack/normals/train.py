@@ -214,10 +214,11 @@ def _paint_views(
     """The painter process: it dies with its parent."""
     parent = os.getppid()
     for view in random_views(models, seed, figure_px):
-        while True:
+        while os.getppid() == parent:
             try:
                 views.put(view, timeout=2)
                 break
             except queue.Full:
-                if os.getppid() != parent:
-                    return
+                continue
+        else:
+            return
