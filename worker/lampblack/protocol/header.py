@@ -73,14 +73,9 @@ def read_message(tree: dict[str, Any], kind: type[Message]) -> Message:
         raise ProtocolError(ErrorCode.BAD_FIELD, str(error)) from error
 
 
-def message_tree(message: Message) -> dict[str, Any]:
-    """The message as plain JSON values, defaults and the scene's unknown fields included."""
+def write_header(message: Message) -> bytes:
+    """The header frame of a message, defaults and the scene's unknown fields included."""
     tree: dict[str, Any] = msgspec.to_builtins(message)
     if isinstance(message, SetScene):
         tree["scene"] = msgspec.json.decode(encode_scene(message.scene))
-    return tree
-
-
-def write_header(message: Message) -> bytes:
-    """The header frame of a message."""
-    return PREFIX + msgspec.json.encode(message_tree(message))[1:]
+    return PREFIX + msgspec.json.encode(tree)[1:]
