@@ -209,3 +209,22 @@ def test_bands_join_without_a_seam(monkeypatch: pytest.MonkeyPatch) -> None:
     module = import_module("lampblack.composite.composite")  # the function hides its name
     monkeypatch.setattr(module, "BAND_PIXELS", 5 * WIDTH)
     assert (composite(drawing, passes, scene) == whole).all()
+
+
+def test_clear_line_art_is_shaded_and_stays_clear_where_lit() -> None:
+    """Over white it is white paper under that light; where light is full it stays as drawn."""
+    drawing = make_drawing(BACKGROUNDS[0])
+    white = np.ones_like(drawing.albedo)
+    line = drawing.ink * drawing.coverage
+    film = np.dstack([np.rint(drawing.ink_colour * 255), np.rint(line * 255)]).astype(np.uint8)
+    art = replace(drawing, pixels=film, albedo=white)
+    full = composite(art, Passes((), flat(1)), make_scene(ambient=Ambient(strength=1)))
+    drawn = film[..., 3] > 0
+    assert close(full[..., 3], film[..., 3])
+    assert close(full[drawn], film[drawn], 2)
+    dim = composite(art, Passes((), flat(0.3)), make_scene(ambient=Ambient(strength=1)))
+    alpha = dim[..., 3:] / 255
+    over_white = dim[..., :3] * alpha + 255 * (1 - alpha)
+    inside = (drawing.coverage == 1) & (drawing.ink == 0)
+    assert np.abs(over_white[inside] - 255 * srgb(np.float32(0.3))).max() < 1.5
+    assert (dim[drawing.coverage == 0] == film[drawing.coverage == 0]).all()

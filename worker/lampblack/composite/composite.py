@@ -17,6 +17,7 @@ from .shadow import shade_background
 
 KNEE = 0.8
 BAND_PIXELS = 2_000_000
+ROUNDING = 1.5 / 255
 
 Source = tuple[NDArray[np.float32], LightPasses]
 """The weight, (3,) scene-linear, and the passes of a light."""
@@ -64,17 +65,42 @@ def _composite_band(
 
     pixels = drawing.pixels.astype(np.float32) / 255
     coverage = drawing.coverage[..., None]
+    kept = pixels[..., 3:]
+    # Line art is drawn on clear film, yet its figure is solid: it is lit on white paper.
+    paper = np.where(coverage - kept > ROUNDING, coverage - kept, 0)
     # What lies behind the figure: pixels = drawn over background, solved for the background.
-    behind = pixels[..., 3:] - coverage
-    paint = pixels[..., 3:] * pixels[..., :3] - coverage * drawn
+    behind = kept + paper - coverage
+    paint = kept * pixels[..., :3] + paper - coverage * drawn
     if scene.floor is not None:
         paint, behind = shade_background(paint, behind, coverage, sources, band)
     alpha = coverage + behind
-    colour = (coverage * lit + paint) / np.maximum(alpha, 1e-6)
+    light = coverage * lit + paint
+    if paper.any():
+        light, alpha = _lift_off_paper(light, alpha, kept, paper > 0)
+    colour = light / np.maximum(alpha, 1e-6)
     colour = np.where(alpha > 0, colour, pixels[..., :3])
     rgba = np.concatenate([colour, alpha], axis=2)
     rounded: NDArray[np.uint8] = np.rint(np.clip(rgba, 0, 1) * 255).astype(np.uint8)
     return rounded
+
+
+def _lift_off_paper(
+    light: NDArray[np.float32],
+    alpha: NDArray[np.float32],
+    kept: NDArray[np.float32],
+    papered: NDArray[np.bool_],
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Take the white paper away again: the least opaque picture that looks the same over
+    white, so that line art's shading lies over whatever the artist puts beneath.
+
+    Args:
+        light: (H, W, 3) sRGB times ``alpha``. alpha, kept: (H, W, 1), with the paper and
+            as drawn. papered: (H, W, 1) where paper was put.
+    """
+    over_white = light + 1 - alpha
+    least = np.maximum(kept, 1 - over_white.min(axis=2, keepdims=True))
+    lifted = np.where(papered, over_white - (1 - least), light)
+    return lifted.astype(np.float32), np.where(papered, least, alpha).astype(np.float32)
 
 
 def _lit_fill(
