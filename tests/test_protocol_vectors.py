@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -102,7 +101,6 @@ def unchecked(tree: dict[str, Any], kind: type[Message]) -> Message:
     return kind(**{f: tree[f] for f in kind.__struct_fields__ if f in tree})
 
 
-Lenient = Callable[..., Any]
 STAGES: dict[str, tuple[str, Any]] = {
     "json": ("parse_header", lenient_json),
     "numbers that vanish": ("_PARSER", msgspec.json.Decoder()),

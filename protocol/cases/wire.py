@@ -105,6 +105,11 @@ def rejected_json() -> Iterator[Case]:
     }.items():
         yield raw(name, cancel + b',"x":[{"y":' + number + b"}]}", "bad_number")
     yield raw("number-in-id", b'"type":"cancel","request":9007199254740993}', "bad_number")
+    yield raw(
+        "number-vanishes-in-dropped-key",
+        b'"type":"cancel","request":1e-999,"request":5}',
+        "bad_number",
+    )
 
 
 def rejected_types() -> Iterator[Case]:

@@ -74,7 +74,7 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ),
     ErrorCode.HEADER_TOO_LARGE: Entry(
         "The header is longer than 65,536 bytes.",
-        "Use fewer materials of their own in this scene.",
+        "Give fewer colours a material of their own.",
         decoding=True,
     ),
     ErrorCode.PLANE_TOO_LARGE: Entry(
@@ -187,7 +187,7 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ),
     ErrorCode.OUTPUT_FAILED: Entry(
         "A finished frame could not be written; those before it are kept.",
-        "Make room or choose another folder, and render again with keep_finished.",
+        "Make room or choose another folder, then render again and keep what is finished.",
     ),
     ErrorCode.OUT_OF_MEMORY: Entry(
         "There was not enough memory for the request.",

@@ -18,14 +18,15 @@ from .version import PREFIX
 def parse_header(header: bytes) -> dict[str, Any]:
     """The header's JSON object. Of keys that come twice, the last counts.
 
-    ``1.0`` and ``1e0`` are the integer 1. What no double holds becomes infinite.
+    ``1.0`` and ``1e0`` are the integer 1.
 
     Raises:
-        ProtocolError: not strict JSON (``BAD_JSON``), or an absurd integer (``BAD_NUMBER``).
+        ProtocolError: not strict JSON (``BAD_JSON``), or a number that no double comes near
+            (``BAD_NUMBER``), even as the value of a key that comes again.
     """
     try:
         tree = _PARSER.decode(header)
-    except msgspec.ValidationError as error:  # the one thing an untyped decode validates
+    except msgspec.ValidationError as error:  # of a number: all else fits an untyped decode
         raise ProtocolError(ErrorCode.BAD_NUMBER, str(error)) from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise ProtocolError(ErrorCode.BAD_JSON, str(error)) from error
@@ -36,10 +37,9 @@ def parse_header(header: bytes) -> dict[str, Any]:
 def _number(text: str) -> float | int:
     """Qt refuses numbers that overflow or that vanish; so does everyone."""
     value = float(text)
-    if not math.isfinite(value):
-        return math.inf
-    if value == 0 and any(digit in "123456789" for digit in text.lower().split("e")[0]):
-        return math.inf
+    vanished = value == 0 and any(digit in "123456789" for digit in text.lower().split("e")[0])
+    if vanished or not math.isfinite(value):
+        raise ValueError(f"{text[:40]} is no double")
     return int(value) if value.is_integer() and abs(value) < 1 << 53 else value
 
 
