@@ -149,7 +149,7 @@ def _range(field: dict[str, Any]) -> str:
     if "enum" in field:
         parts.append(", ".join(f"`{value}`" for value in field["enum"]))
     if "minimum" in field:
-        parts.append(f"{field['minimum']:,} to {field['maximum']:,}")
+        parts.append(f"{_plain(field['minimum'])} to {_plain(field['maximum'])}")
     if field.get("type") == "array":
         low, high = field.get("minItems", 0), field["maxItems"]
         parts.append(f"{high} items" if low == high else f"{low} to {high} items")
@@ -159,6 +159,10 @@ def _range(field: dict[str, Any]) -> str:
     if "maxLength" in field:
         parts.append(f"{field.get('minLength', 0)} to {field['maxLength']:,} characters")
     return "; ".join(filter(None, parts))
+
+
+def _plain(number: float) -> str:
+    return f"{int(number):,}" if number == int(number) else str(number)
 
 
 def with_tables(spec: str) -> str:
