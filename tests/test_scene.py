@@ -58,6 +58,7 @@ def test_materials_follow_the_colour_not_the_order() -> None:
         ("lights", [{"x": 1, "y": 2, "z": 3}] * 5),
         ("lights", [{"x": 1, "y": 2, "z": 3, "colour": "#FFF"}]),
         ("lights", [{"x": 1, "y": 2, "z": 3, "power": -1}]),
+        ("ambient", {"colour": "#ffffff\n"}),
         ("materials", {"red": {}}),
         ("materials", {"#ff0000": {"gloss": 2}}),
         ("floor", {"y": 3, "pitch": 0}),

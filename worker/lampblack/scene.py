@@ -8,6 +8,7 @@ goes to JSON and back; fields this version does not know are kept and written ou
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, TypeVar, get_type_hints
@@ -21,7 +22,11 @@ VERSION = 1
 MAX_LIGHTS = 4
 MAX_JSON_BYTES = 1 << 20
 
-Colour = Annotated[str, Meta(pattern="^#[0-9a-f]{6}$", description="sRGB, lower case #rrggbb")]
+Colour = Annotated[
+    str,
+    # Python's $ also matches before a final newline: the length shuts that door.
+    Meta(pattern="^#[0-9a-f]{6}$", max_length=7, description="sRGB, lower case #rrggbb"),
+]
 Pixels = Annotated[float, Meta(ge=-1e5, le=1e5, description="canvas pixels")]
 Unit = Annotated[float, Meta(ge=0, le=1)]
 Strength = Annotated[float, Meta(ge=0, le=100)]
@@ -197,7 +202,7 @@ def _from_builtins(tree: Mapping[str, Any], kind: type[Node]) -> Node:
 def _gather_extra(value: Any, hint: Any) -> Any:
     """Move undeclared fields of every object into its ``extra`` field, recursively."""
     if isinstance(hint, type) and dataclasses.is_dataclass(hint) and isinstance(value, dict):
-        hints = get_type_hints(hint)
+        hints = _type_hints(hint)
         known = {
             name: _gather_extra(value[name], hints[name])
             for name in hints
@@ -213,6 +218,9 @@ def _gather_extra(value: Any, hint: Any) -> Any:
             return _gather_extra(value, arguments[0])
         return {key: _gather_extra(item, arguments[1]) for key, item in value.items()}
     return value
+
+
+_type_hints = functools.cache(get_type_hints)
 
 
 def _to_builtins(value: Any) -> Any:

@@ -10,12 +10,17 @@ from numpy.typing import NDArray
 from scipy import ndimage
 from torch import nn
 
+from .. import __version__
 from ..cache import digest
 from .card import NetworkCard, load_network
 from .tiles import TILE, TileSource, diagonal_grids
 
 DEFAULT_GRIDS = 5
 MAX_GRIDS = 64
+ROUNDNESS = 1.5
+"""Factor on the slopes. On the validation models it brings the mean tilt away from the viewer
+within 5 degrees of the truth, from 14, at the same mean angle; 1.2 would serve the angle best."""
+
 _BATCH = 8
 
 
@@ -34,7 +39,10 @@ class NormalPredictor:
         self._network = network.to(memory_format=torch.channels_last).eval()  # type: ignore[call-overload]
         self.card = card
         self.identity = digest(
-            repr(card), *(tensor.numpy() for tensor in self._network.state_dict().values())
+            __version__,
+            ROUNDNESS,
+            card,
+            *(tensor.numpy() for tensor in self._network.state_dict().values()),
         )
 
     def predict(
@@ -73,7 +81,7 @@ class NormalPredictor:
         scale = self._scale(max(figure_mask.shape))
         small_lines, small_mask = _resize_figure(figure_lines, figure_mask, scale)
         vectors = self._average_grids(small_lines, small_mask, grids, progress)
-        vectors = _extend_outside(vectors, small_mask)
+        vectors = _extend_outside(_round_off(vectors), small_mask)
         vectors = _resize(vectors, figure_mask.shape)
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
@@ -118,6 +126,19 @@ class NormalPredictor:
         inner = np.s_[TILE : TILE + height, TILE : TILE + width]
         result: NDArray[np.float32] = summed[inner] / np.maximum(weights[inner], 1e-6)
         return result
+
+
+def _round_off(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Unit normals from the network's means, (H, W, 3), without their flatness.
+
+    A mean of the normals that a pixel might have leans to the viewer: what points sideways
+    cancels out, what points forwards does not. Steepening every slope by one factor undoes
+    the lean on the whole, and makes no crease where there was none.
+    """
+    steeper = np.maximum(vectors, [-1, -1, 1e-3]) / [1, 1, ROUNDNESS]
+    rounded = steeper / np.linalg.norm(steeper, axis=2, keepdims=True)
+    result: NDArray[np.float32] = rounded.astype(np.float32)
+    return result
 
 
 def _bounding_box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
