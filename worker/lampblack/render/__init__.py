@@ -3,10 +3,12 @@
 from .client import RenderChild
 from .passes import LightPasses, Passes
 from .quality import QUALITIES, Quality, Sampling
-from .request import RenderRequest, Surface, frame_request
+from .request import RenderRequest, Surface, dress, frame_request, standing_on
+from .wire import Expose
 
 __all__ = [
     "QUALITIES",
+    "Expose",
     "LightPasses",
     "Passes",
     "Quality",
@@ -14,5 +16,7 @@ __all__ = [
     "RenderRequest",
     "Sampling",
     "Surface",
+    "dress",
     "frame_request",
+    "standing_on",
 ]

@@ -13,7 +13,7 @@ import traceback
 from io import FileIO
 from typing import NoReturn
 
-from .wire import Array, Failed, Load, Message, Trace, Traced, WireError, receive, send
+from .wire import Array, Expose, Failed, Load, Message, Trace, Traced, WireError, receive, send
 
 Received = tuple[Message, list[Array]]
 
@@ -25,15 +25,20 @@ def main() -> NoReturn:
     threading.Thread(target=_read_requests, args=(inbox,), daemon=True).start()
 
     from .denoise import Denoiser
+    from .exposure import Exposure
     from .stage import Stage, threads
     from .trace import trace
 
     stage, denoiser = Stage(), Denoiser(threads())
+    exposure = Exposure()
     while True:
         message, arrays = inbox.get()
         try:
             if isinstance(message, Load):
                 stage.set_surface(*arrays)  # type: ignore[arg-type]
+                exposure = Exposure()
+            elif isinstance(message, Expose):
+                send(answers, Traced(), exposure.expose(stage, denoiser, message))
             elif isinstance(message, Trace):
                 light = trace(stage, denoiser, message)
                 found = (light.diffuse, light.glossy, light.floor, light.open_floor)

@@ -9,17 +9,19 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from io import FileIO
 from types import TracebackType
 from typing import IO, Literal, Self, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import RenderError
 from ..scene import AreaLight
 from .passes import LightPasses, Passes
 from .request import RenderRequest, Surface
-from .wire import Array, Failed, Load, Trace, Traced, WireError, receive, send
+from .wire import Array, Expose, Failed, Load, Trace, Traced, WireError, receive, send
 
 # The child gets only these: a drawing program's own library and Python paths would break it.
 KEPT_VARIABLES = ("PATH", "HOME", "LANG", "TMPDIR", "TEMP", "TMP", "SYSTEMROOT")
@@ -32,12 +34,17 @@ class RenderChild:
     if it dies, the render at hand raises and the next one starts a fresh child. It is shut
     off from the terminal's Ctrl-C and ends with the parent, however that ends.
 
+    Args:
+        niceness: how far the child stands back for others, 0 to 19.
+
     Example:
         >>> with RenderChild() as child:
         ...     passes = child.render(frame_request(drawing, relief, scene))
     """
 
-    def __init__(self) -> None:
+    def __init__(self, niceness: int = 0) -> None:
+        self._niceness = niceness
+        self._surface: Surface | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._log: IO[bytes] | None = None
         self._loaded = b""
@@ -63,13 +70,32 @@ class RenderChild:
         Raises:
             RenderError: the child failed or died; rendering again starts a new one.
         """
-        try:
-            self.start()
-            self._load(request.surface)
+        with self._conversation(request.surface):
             lights = tuple(self._trace(request, light) for light in request.lights)
             dark = np.zeros((1, 1, 3), np.float32)
             ambient = self._trace(request, None) if request.ambient else LightPasses(dark, dark)
             return Passes(lights, ambient)
+
+    def expose(self, surface: Surface, job: Expose) -> tuple[NDArray[np.float32], ...]:
+        """Gather samples of one source, a piece at a time; see ``Expose``.
+
+        Returns:
+            When developed, diffuse and glossy light of the figure, or cast and open light of
+            the floor, (h, w, 3) as in ``LightPasses``; otherwise nothing.
+
+        Raises:
+            RenderError: the child failed or died: the exposure has to begin anew.
+        """
+        with self._conversation(surface):
+            return self._ask(job)
+
+    @contextlib.contextmanager
+    def _conversation(self, surface: Surface) -> Iterator[None]:
+        """A child that lives and holds ``surface``; when it is lost, a RenderError."""
+        try:
+            self.start()
+            self._load(surface)
+            yield
         except (WireError, OSError) as error:
             raise self._lost(error) from error
         except RenderError:
@@ -103,9 +129,12 @@ class RenderChild:
             env={name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
             start_new_session=True,
         )
+        if self._niceness and hasattr(os, "setpriority"):
+            os.setpriority(os.PRIO_PROCESS, self._process.pid, self._niceness)
 
     def _end(self) -> None:
         process, self._process, self._loaded = self._process, None, b""
+        self._surface = None
         if process:
             process.kill()
             process.wait()
@@ -117,6 +146,8 @@ class RenderChild:
             self._log = None
 
     def _load(self, surface: Surface) -> None:
+        if surface is self._surface:
+            return
         arrays: list[Array] = [
             surface.relief.vertices,
             surface.relief.faces,
@@ -130,19 +161,25 @@ class RenderChild:
         if digest.digest() != self._loaded:
             send(self._pipe("stdin"), Load(), arrays)
             self._loaded = digest.digest()
+        self._surface = surface
 
     def _trace(self, request: RenderRequest, light: AreaLight | None) -> LightPasses:
-        job = Trace(request.canvas, request.view, light, request.floor, request.quality)
+        arrays = self._ask(
+            Trace(request.canvas, request.view, light, request.floor, request.quality)
+        )
+        return LightPasses(*arrays)
+
+    def _ask(self, job: Trace | Expose) -> tuple[NDArray[np.float32], ...]:
         send(self._pipe("stdin"), job)
         message, arrays = receive(self._pipe("stdout"))
         if isinstance(message, Failed):
-            self._loaded = b""
+            self._loaded, self._surface = b"", None
             raise RenderError(
                 "The renderer could not render this frame.", message.what, message.details
             )
-        if not isinstance(message, Traced) or len(arrays) not in (2, 4):
+        if not isinstance(message, Traced) or len(arrays) not in (0, 2, 4):
             raise WireError(f"an unexpected {type(message).__name__}")
-        return LightPasses(*(array.astype(np.float32, copy=False) for array in arrays))
+        return tuple(array.astype(np.float32, copy=False) for array in arrays)
 
     def _pipe(self, name: Literal["stdin", "stdout"]) -> FileIO:
         """The child's end ``name``, unbuffered."""

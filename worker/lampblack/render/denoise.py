@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 FLOAT3 = 3
 MARGIN = 8  # mirrored around the image, whose borders the network otherwise gets wrong
+DenoiseQuality = Literal["fast", "high"]
 QUALITY = {"fast": 4, "high": 6}
 
 
@@ -28,9 +29,7 @@ class Denoiser:
         self._lib.oidnCommitDevice(self._device)
         self._check()
 
-    def denoise(
-        self, image: NDArray[np.float32], quality: Literal["fast", "high"]
-    ) -> NDArray[np.float32]:
+    def denoise(self, image: NDArray[np.float32], quality: DenoiseQuality) -> NDArray[np.float32]:
         """Denoise an (h, w, 3) scene-linear image.
 
         No normals or albedo guide it: measured on demodulated light, they gain next to

@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from ..composite.colour import linear
 from ..drawing.drawing import Drawing
+from ..drawing.palette import Palette
 from ..scene import AreaLight, Canvas, Floor, Scene
 from ..surface.relief import Relief
 from .quality import QUALITIES, Quality
@@ -62,29 +63,49 @@ class RenderRequest:
 
 
 def frame_request(drawing: Drawing, relief: Relief, scene: Scene) -> RenderRequest:
-    """Ask for all the light of ``scene`` on one frame.
-
-    Each vertex wears the albedo and material of the pixel it stands on; those past the
-    figure's edge wear the nearest pixel's.
-    """
-    height, width = drawing.mask.shape
-    column = np.clip(relief.vertices[:, 0].astype(np.intp), 0, width - 1)
-    row = np.clip(relief.vertices[:, 1].astype(np.intp), 0, height - 1)
-    if (drawing.labels >= 0).any():
-        row, column = ndimage.distance_transform_edt(
-            drawing.labels < 0, return_distances=False, return_indices=True
-        )[:, row, column]
-    materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
-    materials.append(scene.default_material)
-    gloss = np.array([m.gloss if m.glossy else 0.0 for m in materials], np.float32)
-    roughness = np.array([m.roughness for m in materials], np.float32)
-    label = drawing.labels[row, column]
+    """Ask for all the light of ``scene`` on one frame."""
+    row, column = standing_on(drawing.labels, relief.vertices)
     return RenderRequest(
-        surface=Surface(
-            relief, linear(drawing.albedo[row, column]), gloss[label], roughness[label]
+        surface=dress(
+            relief, drawing.albedo[row, column], drawing.labels[row, column], drawing.palette, scene
         ),
         canvas=scene.canvas,
         lights=scene.lights,
         floor=scene.floor,
         quality=QUALITIES[scene.quality],
     )
+
+
+def standing_on(
+    labels: NDArray[np.int16], vertices: NDArray[np.float32]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """(V,) rows and (V,) columns of the pixel of ``labels``, (H, W), that each vertex stands on;
+    for those past the figure's edge, of the nearest pixel inside."""
+    height, width = labels.shape
+    column = np.clip(vertices[:, 0].astype(np.intp), 0, width - 1)
+    row = np.clip(vertices[:, 1].astype(np.intp), 0, height - 1)
+    if (labels >= 0).any():
+        row, column = ndimage.distance_transform_edt(
+            labels < 0, return_distances=False, return_indices=True
+        )[:, row, column]
+    return row, column
+
+
+def dress(
+    relief: Relief,
+    albedo: NDArray[np.float32],
+    labels: NDArray[np.int16],
+    palette: Palette,
+    scene: Scene,
+) -> Surface:
+    """Give each vertex the material that its colour wears in ``scene``.
+
+    Args:
+        albedo: (V, 3) sRGB in 0..1 of the pixel each vertex stands on.
+        labels: (V,) index into ``palette`` of that pixel, -1 for none.
+    """
+    materials = [scene.material(swatch.colour) for swatch in palette.swatches]
+    materials.append(scene.default_material)
+    gloss = np.array([m.gloss if m.glossy else 0.0 for m in materials], np.float32)
+    roughness = np.array([m.roughness for m in materials], np.float32)
+    return Surface(relief, linear(albedo), gloss[labels], roughness[labels])

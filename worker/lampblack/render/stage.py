@@ -146,7 +146,15 @@ class Stage:
 
     def set_sampling(self, sampling: Sampling) -> None:
         """Set samples per pixel."""
-        self.scene.cycles.samples = sampling.spp
+        self.set_samples(sampling.spp, 0, sampling.spp)
+
+    def set_samples(self, spp: int, first: int, count: int) -> None:
+        """Trace ``count`` of a pattern of ``spp`` samples per pixel, from ``first`` on. Averaged,
+        subsets are what the whole is; renders that only differ in their seed are not."""
+        cycles = self.scene.cycles
+        cycles.samples = spp
+        cycles.use_sample_subset = count < spp
+        cycles.sample_offset, cycles.sample_subset_length = first, count
         # Cycles only looks at its settings again when told that the film changed.
         self.scene.render.filter_size = self.scene.render.filter_size
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .denoise import Denoiser
+from .denoise import DenoiseQuality, Denoiser
 from .engine import render_passes
 from .passes import LightPasses
-from .quality import Quality
 from .stage import Stage
 from .wire import Trace
+
+Floats = NDArray[np.float32]
 
 FAINT = np.float32(0.05)
 UNSEEN = 0.004  # half a step of an 8-bit picture: paper far from the figure stays as it was
@@ -30,36 +33,58 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     stage.set_sampling(sampling)
     stage.set_view(job.view, sampling.size(*job.view[2:]), job.canvas)
     stage.set_subject("figure")
-    passes = render_passes(stage.scene)
-    diffuse, glossy = (
-        _clean(passes, kind, denoiser, job.quality) for kind in ("Diffuse", "Glossy")
-    )
+    diffuse, glossy = figure_light(render_passes(stage.scene), denoiser, job.quality.denoise)
     if job.floor is None:
         return LightPasses(diffuse, glossy)
     stage.set_sampling(job.quality.floor)
     stage.set_view(job.view, job.quality.floor.size(*job.view[2:]), job.canvas)
-    # Both renders draw the same random numbers, so their ratio is free of noise but in the
-    # shadow and where light bleeds; FAINT keeps it tame where no light falls.
-    cast, free = (_floor_light(stage, subject) + FAINT for subject in ("floor", "bare floor"))
-    change = denoiser.denoise(cast / free, job.quality.denoise) - 1
+    cast, free = (floor_passes(stage, subject) for subject in ("floor", "bare floor"))
+    return LightPasses(diffuse, glossy, *floor_light(cast, free, denoiser, job.quality.denoise))
+
+
+def figure_light(
+    passes: dict[str, Floats], denoiser: Denoiser, quality: DenoiseQuality
+) -> tuple[Floats, Floats]:
+    """Diffuse and glossy light on the figure without their colour, denoised, (h, w, 3)."""
+    diffuse, glossy = (_clean(passes, kind, denoiser, quality) for kind in ("Diffuse", "Glossy"))
+    return diffuse, glossy
+
+
+def floor_light(
+    cast: dict[str, Floats], free: dict[str, Floats], denoiser: Denoiser, quality: DenoiseQuality
+) -> tuple[Floats, Floats]:
+    """Irradiance over pi of the floor with the figure on it and without, (h, w, 3), from the
+    passes of both.
+
+    Both renders draw the same random numbers, so their ratio is free of noise but in the
+    shadow and where light bleeds; FAINT keeps it tame where no light falls.
+    """
+    open_floor = _irradiance(free)
+    ratio = (_irradiance(cast) + FAINT) / (open_floor + FAINT)
+    change = denoiser.denoise(ratio, quality) - 1
     change -= np.clip(change, -UNSEEN, UNSEEN)
-    floor = np.maximum(free - FAINT + change * free, 0)
-    return LightPasses(diffuse, glossy, floor, free - FAINT)
+    return np.maximum(open_floor + change * (open_floor + FAINT), 0), open_floor
 
 
-def fill(image: NDArray[np.float32], inside: NDArray[np.bool_]) -> NDArray[np.float32]:
+def floor_passes(stage: Stage, subject: Literal["floor", "bare floor"]) -> dict[str, Floats]:
+    """What the camera sees of the floor."""
+    stage.set_subject(subject)
+    return render_passes(stage.scene)
+
+
+def fill(image: Floats, inside: NDArray[np.bool_]) -> Floats:
     """Give every pixel outside the value of the nearest inside, lest enlarging the picture
     draws a dark fringe along the edge. (h, w, 3), (h, w)."""
     row, column = ndimage.distance_transform_edt(
         ~inside, return_distances=False, return_indices=True
     )
-    filled: NDArray[np.float32] = image[row, column]
+    filled: Floats = image[row, column]
     return filled
 
 
 def _clean(
-    passes: dict[str, NDArray[np.float32]], kind: str, denoiser: Denoiser, quality: Quality
-) -> NDArray[np.float32]:
+    passes: dict[str, Floats], kind: str, denoiser: Denoiser, quality: DenoiseQuality
+) -> Floats:
     """One kind of light on the figure without its colour, denoised, (h, w, 3).
 
     Filled before it is denoised: the denoiser smears the dark outside into the edge.
@@ -70,7 +95,7 @@ def _clean(
         return np.zeros_like(light)
     top, bottom, left, right = _bounding_box(there)
     box = slice(top, bottom), slice(left, right)
-    clean = denoiser.denoise(fill(light[box], there[box]), quality.denoise)
+    clean = denoiser.denoise(fill(light[box], there[box]), quality)
     height, width = there.shape
     around = (top, height - bottom), (left, width - right), (0, 0)
     return np.pad(np.maximum(clean, 0), around, "edge")
@@ -82,8 +107,6 @@ def _bounding_box(mask: NDArray[np.bool_]) -> tuple[int, int, int, int]:
     return int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
 
 
-def _floor_light(stage: Stage, subject: str) -> NDArray[np.float32]:
-    """Irradiance over pi of the floor, (h, w, 3)."""
-    stage.set_subject(subject)  # type: ignore[arg-type]
-    passes = render_passes(stage.scene)
-    return np.nan_to_num(passes["Diffuse Direct"] + passes["Diffuse Indirect"])
+def _irradiance(passes: dict[str, Floats]) -> Floats:
+    """Irradiance over pi, (h, w, 3)."""
+    return np.asarray(np.nan_to_num(passes["Diffuse Direct"] + passes["Diffuse Indirect"]))

@@ -44,8 +44,28 @@ class Trace(msgspec.Struct, tag=True):
     quality: Quality
 
 
+class Expose(msgspec.Struct, tag=True):
+    """Gather ``count`` more samples a pixel of one source on one subject; answered by Traced,
+    with arrays only if it is to be developed, or Failed.
+
+    ``first`` samples were gathered before, under the same other fields; 0 begins anew.
+    """
+
+    canvas: Canvas
+    view: tuple[float, float, float, float]
+    size: tuple[int, int]
+    light: AreaLight | None
+    floor: Floor | None
+    subject: Literal["figure", "floor"]
+    spp: int
+    first: int
+    count: int
+    develop: bool
+
+
 class Traced(msgspec.Struct, tag=True):
-    """Arrays: diffuse, glossy and, with a floor, floor and open_floor."""
+    """Arrays: diffuse, glossy and, with a floor, floor and open_floor; of an exposure, those
+    of its subject."""
 
 
 class Failed(msgspec.Struct, tag=True):
@@ -55,7 +75,7 @@ class Failed(msgspec.Struct, tag=True):
     details: str
 
 
-Message = Load | Trace | Traced | Failed
+Message = Load | Trace | Expose | Traced | Failed
 
 
 class ArraySpec(msgspec.Struct, array_like=True):

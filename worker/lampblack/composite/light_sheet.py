@@ -1,0 +1,186 @@
+"""``composite`` for previews: the same sums in one compiled loop over a sheet of bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from .colour import linear, srgb
+from .composite import KNEE
+from .resample import Band, enlarge
+from .sheet import Box, Sheet
+
+Floats = NDArray[np.float32]
+
+STEPS = 4096
+_LINEAR = linear(np.arange(256) / 255)
+_SRGB = srgb(np.arange(STEPS + 2) / STEPS)
+_UNIT = np.ones((1, 1, 3), np.float32)
+_DARK = np.zeros((1, 1, 3), np.float32)
+
+
+@dataclass(frozen=True)
+class Light:
+    """All sources together, each times its weight.
+
+    Attributes:
+        diffuse, glossy: (h, w, 3) scene-linear, as in ``LightPasses``.
+        figure: what of the drawing they cover, its pixels.
+        floor: (h, w, 3) the floor's light with the figure over that without; None: no floor.
+        ground: what of the drawing ``floor`` covers.
+    """
+
+    diffuse: Floats
+    glossy: Floats
+    figure: Box
+    floor: Floats | None = None
+    ground: Box = (0.0, 0.0, 1.0, 1.0)
+
+
+def add_up(weighted: Sequence[tuple[Floats, Floats]]) -> Floats:
+    """Sum (3,) weights times (h, w, 3) pictures of one area, at the size of the largest."""
+    if not weighted:
+        return _DARK
+    height = max(picture.shape[0] for _, picture in weighted)
+    width = max(picture.shape[1] for _, picture in weighted)
+    band = Band(width, height, 0, height)
+    total = np.zeros((height, width, 3), np.float32)
+    for weight, picture in weighted:
+        total += weight * enlarge(picture, band)
+    return total
+
+
+def light_sheet(sheet: Sheet, crop: Box, light: Light, scene: Scene) -> NDArray[np.uint8]:
+    """The sheet, lit: (H, W, 4) uint8 sRGB, premultiplied.
+
+    Args:
+        sheet: cut from a drawing.
+        crop: what of the drawing it shows, the drawing's pixels.
+        light: of the colours, powers and amounts of ``scene``.
+        scene: its materials.
+    """
+    materials = [scene.material(swatch.colour) for swatch in sheet.palette.swatches]
+    materials.append(scene.default_material)  # label -1: past the edge
+    kinds = np.array([m.diffuse + 2 * m.glossy for m in materials], np.uint8)
+    gloss = np.array([m.gloss for m in materials], np.float32)
+    height, width = sheet.ink.shape
+    lit = np.empty((height, width, 4), np.uint8)
+    _light(
+        sheet.pixels, sheet.albedo, sheet.ink, sheet.ink_colour, sheet.coverage, sheet.labels,
+        kinds, gloss,
+        light.diffuse, light.glossy, _steps(crop, sheet.size, light.figure),
+        _UNIT if light.floor is None else light.floor, light.floor is not None,
+        _steps(crop, sheet.size, light.ground),
+        _LINEAR, _SRGB, lit,
+    )  # fmt: skip
+    return lit
+
+
+def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, float, float]:
+    """(step, start) along x, then along y: pixel ``i`` of the sheet lies at ``start + i * step``
+    across ``area``, which goes from 0 to 1."""
+    found = []
+    for axis in (0, 1):
+        step = crop[axis + 2] / size[axis] / area[axis + 2]
+        found += [step, (crop[axis] - area[axis]) / area[axis + 2] + step / 2]
+    return found[0], found[1], found[2], found[3]
+
+
+@njit(cache=True, nogil=True)
+def _sample(picture: Any, u: float, v: float, channel: int) -> Any:
+    """Bilinear at (u, v) in 0..1, continued past the edges."""
+    height, width = picture.shape[0], picture.shape[1]
+    x = min(max(u * width - 0.5, 0.0), width - 1.0)
+    y = min(max(v * height - 0.5, 0.0), height - 1.0)
+    x0, y0 = int(x), int(y)
+    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
+    s, t = np.float32(x - x0), np.float32(y - y0)
+    above = picture[y0, x0, channel] + s * (picture[y0, x1, channel] - picture[y0, x0, channel])
+    below = picture[y1, x0, channel] + s * (picture[y1, x1, channel] - picture[y1, x0, channel])
+    return above + t * (below - above)
+
+
+@njit(cache=True, nogil=True)
+def _encode(table: Any, value: Any) -> Any:
+    """sRGB of scene-linear ``value``, clipped to 0..1."""
+    at = min(max(value, np.float32(0)), np.float32(1)) * np.float32(STEPS)
+    index = int(at)
+    return table[index] + (at - index) * (table[index + 1] - table[index])
+
+
+@njit(cache=True, nogil=True)
+def _light(
+    pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any, labels: Any,
+    kinds: Any, gloss: Any,
+    diffuse: Any, glossy: Any, on_figure: Any,
+    floor: Any, has_floor: bool, on_ground: Any,
+    to_linear: Any, to_srgb: Any, lit: Any,
+) -> None:  # fmt: skip
+    byte, one, zero = np.float32(1 / 255), np.float32(1), np.float32(0)
+    fill, shown = np.zeros(3, np.float32), np.zeros(3, np.float32)
+    for row in range(ink.shape[0]):
+        for column in range(ink.shape[1]):
+            alpha = pixels[row, column, 3] * byte
+            cover = coverage[row, column] * byte
+            behind = alpha - cover
+            if cover == 0 and not has_floor:
+                for c in range(4):
+                    lit[row, column, c] = pixels[row, column, c]
+                continue
+            label = labels[row, column]
+            kind = kinds[label]
+            peak, drawn_peak = zero, zero
+            u, v = on_figure[1] + column * on_figure[0], on_figure[3] + row * on_figure[2]
+            for c in range(3):
+                base = to_linear[albedo[row, column, c]]
+                value = base
+                if cover > 0 and kind != 0:
+                    value = zero
+                    if kind & 1:
+                        value = base * _sample(diffuse, u, v, c)
+                    if kind & 2:
+                        shine = gloss[label] * _sample(glossy, u, v, c)
+                        value += shine if kind & 1 else base * shine
+                fill[c] = value
+                peak, drawn_peak = max(peak, value), max(drawn_peak, base)
+            knee = min(max(drawn_peak, np.float32(KNEE)), one)
+            scale = one
+            if kind != 0 and peak > knee:
+                room = max(one - knee, np.float32(1e-4))
+                bent = knee - room * np.float32(np.expm1(-(peak - knee) / room))
+                scale = bent / max(peak, np.float32(KNEE))
+            line = ink[row, column] * byte
+            ground_alpha = behind
+            darkest = one
+            for c in range(3):
+                tone = ink_colour[row, column, c] * byte
+                drawn = albedo[row, column, c] * byte
+                drawn += line * (tone - drawn)
+                colour = _encode(to_srgb, fill[c] * scale)
+                colour += line * (tone - colour)
+                paint = pixels[row, column, c] * byte - cover * drawn
+                if has_floor:
+                    ratio = _sample(
+                        floor, on_ground[1] + column * on_ground[0],
+                        on_ground[3] + row * on_ground[2], c,
+                    )  # fmt: skip
+                    plain = min(max(paint / max(behind, np.float32(1e-3)), zero), one)
+                    paint = behind * _encode(to_srgb, to_linear[int(plain * 255)] * ratio)
+                    shown[c] = _encode(to_srgb, ratio)
+                    darkest = min(darkest, shown[c])
+                fill[c] = cover * colour + paint
+            if has_floor:
+                bare = min(max(one - cover - behind, zero), one)
+                for c in range(3):
+                    fill[c] += bare * (shown[c] - darkest)
+                ground_alpha += bare * (one - darkest)
+            total = min(max(cover + ground_alpha, zero), one)
+            for c in range(3):
+                lit[row, column, c] = np.uint8(min(max(fill[c], zero), total) * 255 + 0.5)
+            lit[row, column, 3] = np.uint8(total * 255 + 0.5)

@@ -1,0 +1,149 @@
+"""A drawing's layers as bytes, cut to a crop at device resolution: what previews are lit on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from ..drawing.drawing import Drawing
+from ..drawing.palette import Palette
+
+Bytes = NDArray[np.uint8]
+Box = tuple[float, float, float, float]
+"""x, y, width, height in pixels of a drawing."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The layers of a ``Drawing``, H x W, in 14 bytes a pixel.
+
+    Attributes:
+        pixels: (H, W, 4) uint8 sRGB, premultiplied.
+        albedo: (H, W, 3) uint8 sRGB.
+        ink: (H, W) uint8. ink_colour: (H, W, 3) uint8 sRGB.
+        coverage: (H, W) uint8.
+        labels: (H, W) int16 index into ``palette.swatches``, -1 outside.
+        palette: the flat colours.
+    """
+
+    pixels: Bytes
+    albedo: Bytes
+    ink: Bytes
+    ink_colour: Bytes
+    coverage: Bytes
+    labels: NDArray[np.int16]
+    palette: Palette
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) in pixels."""
+        return self.pixels.shape[1], self.pixels.shape[0]
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of all layers."""
+        return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
+
+    def cut(self, crop: Box, size: tuple[int, int]) -> Sheet:
+        """The part in ``crop`` at ``size`` (width, height) pixels; past the drawing's edges it
+        is empty. Averaged when that is smaller, interpolated when larger."""
+        place = _place(crop, size, self.size)
+        return Sheet(
+            pixels=_resized(self.pixels, place, size),
+            albedo=_resized(self.albedo, place, size),
+            ink=_resized(self.ink, place, size),
+            ink_colour=_ink_colour(self, place, size),
+            coverage=_resized(self.coverage, place, size),
+            labels=_nearest(self.labels, place, size),
+            palette=self.palette,
+        )
+
+
+def sheet_of(drawing: Drawing) -> Sheet:
+    """The layers of ``drawing``, rounded."""
+    return Sheet(
+        pixels=premultiplied(drawing.pixels),
+        albedo=_rounded(drawing.albedo),
+        ink=_rounded(drawing.ink),
+        ink_colour=_rounded(drawing.ink_colour),
+        coverage=_rounded(drawing.coverage),
+        labels=drawing.labels,
+        palette=drawing.palette,
+    )
+
+
+def premultiplied(pixels: Bytes) -> Bytes:
+    """(H, W, 4) straight alpha to premultiplied."""
+    alpha = pixels[..., 3:].astype(np.uint16)
+    colour = (pixels[..., :3] * alpha + 127) // 255
+    return np.concatenate([colour, alpha], axis=2).astype(np.uint8)
+
+
+@dataclass(frozen=True)
+class _Place:
+    """``box`` (left, top, right, bottom) of the drawing goes to ``at`` (left, top) of the
+    result, ``size`` pixels large."""
+
+    box: Box
+    at: tuple[int, int]
+    size: tuple[int, int]
+
+
+def _place(crop: Box, size: tuple[int, int], whole: tuple[int, int]) -> _Place | None:
+    """Where a crop lands; None where nothing of the drawing is in it."""
+    x, y, width, height = crop
+    step = width / size[0], height / size[1]
+    ends = []
+    for start, pace, count, limit in zip((x, y), step, size, whole, strict=True):
+        first = max(0, int(np.ceil(-start / pace - 1e-6)))
+        last = min(count, int(np.floor((limit - start) / pace + 1e-6)))
+        if last <= first:
+            return None
+        ends.append((first, last, max(0.0, start + first * pace), min(limit, start + last * pace)))
+    (left, right, x0, x1), (top, bottom, y0, y1) = ends
+    return _Place((x0, y0, x1, y1), (left, top), (right - left, bottom - top))
+
+
+def _resized(layer: Bytes, place: _Place | None, size: tuple[int, int]) -> Bytes:
+    whole = np.zeros((size[1], size[0], *layer.shape[2:]), np.uint8)
+    if place is not None:
+        image = (
+            Image.fromarray(layer, "RGBa") if layer.shape[2:] == (4,) else Image.fromarray(layer)
+        )
+        smaller = place.size[0] < place.box[2] - place.box[0]
+        method = Image.Resampling.BOX if smaller else Image.Resampling.BILINEAR
+        part = np.asarray(image.resize(place.size, method, place.box))
+        (left, top), (width, height) = place.at, place.size
+        whole[top : top + height, left : left + width] = part
+    return whole
+
+
+def _nearest(
+    labels: NDArray[np.int16], place: _Place | None, size: tuple[int, int]
+) -> NDArray[np.int16]:
+    whole = np.full((size[1], size[0]), -1, np.int16)
+    if place is not None:
+        x0, y0, x1, y1 = place.box
+        (left, top), (width, height) = place.at, place.size
+        columns = np.minimum(x0 + (np.arange(width) + 0.5) * (x1 - x0) / width, labels.shape[1] - 1)
+        rows = np.minimum(y0 + (np.arange(height) + 0.5) * (y1 - y0) / height, labels.shape[0] - 1)
+        part = labels[np.ix_(rows.astype(np.intp), columns.astype(np.intp))]
+        whole[top : top + height, left : left + width] = part
+    return whole
+
+
+def _ink_colour(sheet: Sheet, place: _Place | None, size: tuple[int, int]) -> Bytes:
+    """Weighted by the ink: where there is none its colour means nothing."""
+    inked = np.concatenate([sheet.ink_colour, np.zeros_like(sheet.ink_colour[..., :1])], axis=2)
+    inked[..., 3] = sheet.ink
+    part = _resized(premultiplied(inked), place, size)
+    weight = np.maximum(part[..., 3:].astype(np.uint16), 1)
+    colour = part[..., :3].astype(np.uint16) * 255 // weight
+    return np.asarray(np.minimum(colour, 255).astype(np.uint8))
+
+
+def _rounded(layer: NDArray[np.float32]) -> Bytes:
+    return np.asarray(np.rint(np.clip(layer, 0, 1) * 255).astype(np.uint8))

@@ -1,0 +1,71 @@
+"""One source's light gathered over several short renders: a render cannot be interrupted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from .denoise import Denoiser
+from .engine import render_passes
+from .stage import Stage
+from .trace import figure_light, floor_light, floor_passes
+from .wire import Expose
+
+Floats = NDArray[np.float32]
+
+
+@dataclass
+class Exposure:
+    """The samples gathered so far; ``views`` sums the passes of one render or, of the floor,
+    of the render with the figure and of that without."""
+
+    job: Expose | None = None
+    spp: int = 0
+    views: list[dict[str, Floats]] = field(default_factory=list)
+
+    def expose(self, stage: Stage, denoiser: Denoiser, job: Expose) -> tuple[Floats, ...]:
+        """Gather the samples of ``job``; the light so far if it is to be developed: diffuse and
+        glossy of the figure, or cast and open light of the floor, (h, w, 3).
+
+        Raises:
+            RuntimeError: Blender or the denoiser failed, or ``job`` continues another exposure.
+        """
+        if job.first == 0:
+            self.job, self.spp, self.views = job, 0, []
+        if self.job is None or _setting(job) != _setting(self.job) or job.first != self.spp:
+            raise RuntimeError("an exposure was continued that is not at hand")
+        if job.count:
+            self._gather(stage, job)
+        if not job.develop:
+            return ()
+        views = [{name: total / self.spp for name, total in sums.items()} for sums in self.views]
+        if job.subject == "figure":
+            return figure_light(views[0], denoiser, "fast")
+        return floor_light(views[0], views[1], denoiser, "fast")
+
+    def _gather(self, stage: Stage, job: Expose) -> None:
+        stage.set_canvas(job.canvas)
+        stage.set_floor(job.floor, job.canvas)
+        stage.set_source(job.light, job.canvas)
+        stage.set_samples(job.spp, job.first, job.count)
+        stage.set_view(job.view, job.size, job.canvas)
+        if job.subject == "figure":
+            stage.set_subject("figure")
+            views = [render_passes(stage.scene)]
+        else:
+            views = [floor_passes(stage, subject) for subject in ("floor", "bare floor")]
+        weighted = [{name: seen * job.count for name, seen in view.items()} for view in views]
+        if self.views:
+            for sums, more in zip(self.views, weighted, strict=True):
+                for name, total in sums.items():
+                    total += more[name]
+        else:
+            self.views = weighted
+        self.spp += job.count
+
+
+def _setting(job: Expose) -> Expose:
+    return msgspec.structs.replace(job, first=0, count=0, develop=False)
