@@ -3,12 +3,13 @@
 
 BIN := .venv/bin
 OUT ?= out/demo
+SHEET ?= out/demo.png
 
 demo: install
 	$(BIN)/lampblack render examples/animation -o $(OUT) --scene examples/animation.scene.json \
-	    --quality medium --contact-sheet $(OUT)/../demo.png
+	    --quality medium --contact-sheet $(SHEET)
 	@echo "Lit frames:    $(abspath $(OUT))"
-	@echo "Contact sheet: $(abspath $(OUT)/../demo.png)"
+	@echo "Contact sheet: $(abspath $(SHEET))"
 
 test: check
 	$(BIN)/pytest
