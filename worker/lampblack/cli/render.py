@@ -43,7 +43,7 @@ from .options import (
 
 def render(
     inputs: Annotated[
-        list[str], typer.Argument(metavar="INPUT...", help="PNG, folder, or walk.%04d.png.")
+        list[str], typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
     ],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Output folder.")],
     scene: Annotated[Path | None, typer.Option("--scene", help="Scene file.")] = None,
@@ -187,8 +187,12 @@ def _prepare_output(output: Path, frames: list[Frame]) -> None:
 
 
 def _write_sheet(path: Path, frames: list[Frame], output: Path) -> None:
-    """Drawings above, lit below: at most 12 of them, evenly chosen."""
+    """Drawings above, lit below: at most 12 of them, evenly chosen. One stands beside its own."""
     if not frames:
+        return
+    if len(frames) == 1:
+        pair = [load_picture(frames[0].path), load_picture(output / frames[0].path.name)]
+        save_picture(path, contact_sheet([pair], cell=560))
         return
     chosen = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, 12).round().astype(int))]
     drawn = [load_picture(frame.path) for frame in chosen]

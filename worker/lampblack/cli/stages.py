@@ -87,7 +87,7 @@ def mesh(
 
 
 def palette(
-    inputs: Annotated[list[str], typer.Argument(metavar="INPUT...", help="PNG or folder.")],
+    inputs: Annotated[list[str], typer.Argument(metavar="INPUT", help="PNG or folder.")],
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     mask: MaskOption = None,
     ink: InkOption = None,
@@ -108,7 +108,7 @@ def palette(
 
 
 def scene(
-    inputs: Annotated[list[str], typer.Argument(metavar="INPUT...", help="PNG or folder.")],
+    inputs: Annotated[list[str], typer.Argument(metavar="INPUT", help="PNG or folder.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="A .json file.")],
     mask: MaskOption = None,
     ink: InkOption = None,
