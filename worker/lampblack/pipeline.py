@@ -43,10 +43,14 @@ class Pipeline:
     Args:
         cache: keeps normals and heights across runs.
         options: how surfaces are made.
+        niceness: how far the render child stands back for others, 0 to 19.
     """
 
-    def __init__(self, cache: ArrayCache, options: PipelineOptions | None = None) -> None:
+    def __init__(
+        self, cache: ArrayCache, options: PipelineOptions | None = None, *, niceness: int = 0
+    ) -> None:
         self._cache = cache
+        self._niceness = niceness
         self.options = options or PipelineOptions()
 
     def __enter__(self) -> Self:
@@ -68,7 +72,7 @@ class Pipeline:
     @cached_property
     def child(self) -> RenderChild:
         """The renderer, started when first needed."""
-        return RenderChild()
+        return RenderChild(self._niceness)
 
     def warm_up(self) -> None:
         """Load the network and start the renderer before the first drawing comes."""

@@ -10,6 +10,7 @@ from .console import for_people
 from .doctor import doctor
 from .learn import evaluate, train
 from .render import render
+from .serve import serve
 from .stages import mesh, normals, palette, scene
 
 app = typer.Typer(
@@ -19,7 +20,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Light hand-drawn animation with real global illumination.",
 )
-for command in (render, normals, mesh, palette, scene, train, evaluate, bench, doctor):
+for command in (render, serve, normals, mesh, palette, scene, train, evaluate, bench, doctor):
     app.command()(command)
 
 

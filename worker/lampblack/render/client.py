@@ -105,6 +105,12 @@ class RenderChild:
             self._end()
             raise
 
+    def kill(self) -> None:
+        """End a render at hand, which then raises; any thread may call this."""
+        process = self._process
+        if process:
+            process.kill()
+
     def close(self) -> None:
         """End the child; safe to call twice."""
         self._end()
@@ -114,9 +120,14 @@ class RenderChild:
         """Process id of the child, None while there is none."""
         return self._process.pid if self._process else None
 
+    @property
+    def alive(self) -> bool:
+        """Whether there is a child, and it has not ended."""
+        return self._process is not None and self._process.poll() is None
+
     def start(self) -> None:
         """Start the child unless it lives; returns at once, while it loads."""
-        if self._process and self._process.poll() is None:
+        if self.alive:
             return
         self._end()
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the child

@@ -1,0 +1,1 @@
+"""The live worker: drawings, lights and looks come in over ZeroMQ, lit pictures go out."""

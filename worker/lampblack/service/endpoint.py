@@ -1,0 +1,88 @@
+"""Where the worker is to be found: a private socket, and a file that says so."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import msgspec
+
+from ..atomic import atomic_file
+from ..errors import OutputError
+from ..protocol import MAJOR, MINOR
+from ..protocol.connection import Connection
+
+MAX_PATH_BYTES = 107
+"""Longest path of a UNIX socket (sun_path, with its final zero)."""
+
+
+@contextmanager
+def private_endpoint() -> Iterator[str]:
+    """An ``ipc://`` address in a fresh directory that only this user enters; removed with all
+    that is in it when the block ends.
+
+    Raises:
+        OutputError: no such directory can be made.
+    """
+    folder = _fresh_folder()
+    try:
+        yield f"ipc://{folder / secrets.token_hex(8)}"
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextmanager
+def connection_file(path: Path, endpoint: str) -> Iterator[None]:
+    """Tell of ``endpoint`` in a file that appears whole, readable by this user only, and that
+    goes when the block ends, unless another worker wrote its own in its place.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    text = msgspec.json.encode(
+        Connection(lampblack=MAJOR, minor=MINOR, endpoint=endpoint, pid=os.getpid())
+    )
+    before = os.umask(0o077)
+    try:
+        with atomic_file(path) as file:
+            file.write(text)
+    finally:
+        os.umask(before)
+    try:
+        yield
+    finally:
+        with suppress(OSError):
+            if path.read_bytes() == text:
+                path.unlink()
+
+
+def read_connection(path: Path) -> Connection:
+    """What a worker wrote there.
+
+    Raises:
+        OSError: there is no such file. msgspec.DecodeError: it holds something else.
+    """
+    return msgspec.json.decode(path.read_bytes(), type=Connection)
+
+
+def _fresh_folder() -> Path:
+    places = [os.environ.get("XDG_RUNTIME_DIR"), tempfile.gettempdir(), "/tmp"]
+    trouble = "its path would be too long"
+    for place in places:
+        # A name's random part and the socket's own take 30 bytes.
+        if not place or len(os.fsencode(place)) + 31 + len("lampblack-") > MAX_PATH_BYTES:
+            continue
+        try:
+            return Path(tempfile.mkdtemp(prefix="lampblack-", dir=place)).resolve()
+        except OSError as error:
+            trouble = str(error)
+    raise OutputError(
+        "No private directory can be made for the socket.",
+        "Set XDG_RUNTIME_DIR to a folder of your own with a short path.",
+        trouble,
+    )

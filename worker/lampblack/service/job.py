@@ -1,0 +1,284 @@
+"""Render jobs: a thread and a renderer of their own, at low priority."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..drawing import load_picture, save_picture
+from ..errors import LampblackError, NothingDrawnError, OutputError, RenderError
+from ..pipeline import Pipeline
+from ..protocol import Done, ErrorCode, FrameDone, Progress, error_message
+from ..render import RenderChild
+from ..scene import Scene
+from .model import Planes, take_planes_apart
+from .noticed import noticed_warnings
+from .session import Shown
+from .snapshot import scene_in_view
+from .studio import Studio
+
+NICENESS = 10
+MAX_WAITING = 16
+PLANES_SECONDS = 20.0
+"""How long a client may take to send a drawing that a job needs."""
+ATTEMPTS = 3
+
+
+class _Cancelled(Exception):
+    """The job was cancelled."""
+
+
+@dataclass
+class Job:
+    """Frames to be written, as they were when the job was asked for.
+
+    Attributes:
+        output: a pattern with ``%04d`` for the frame's number.
+    """
+
+    session: str
+    request: int
+    frames: list[tuple[int, Shown]]
+    scene: Scene
+    output: str
+    keep_finished: bool
+    cancelled: bool = False
+    done: int = 0
+    failed: int = 0
+
+    def path(self, frame: int) -> Path:
+        """The file of a frame."""
+        return Path(self.output % frame)
+
+
+@dataclass
+class Jobs:
+    """Works off jobs one after another.
+
+    Args:
+        need: asks the client of a session for the planes of a drawing.
+    """
+
+    studio: Studio
+    pipeline: Pipeline
+    need: Callable[[str, str], None]
+    _waiting: deque[Job] = field(default_factory=deque)
+    _current: Job | None = None
+    _condition: threading.Condition = field(default_factory=threading.Condition)
+
+    @property
+    def waiting(self) -> int:
+        """Jobs not yet begun."""
+        return len(self._waiting)
+
+    def submit(self, job: Job) -> bool:
+        """Queue a job; False if too many wait."""
+        with self._condition:
+            if len(self._waiting) >= MAX_WAITING:
+                return False
+            self._waiting.append(job)
+            self._condition.notify()
+        return True
+
+    def cancel(self, session: str, request: int | None = None) -> None:
+        """End a job of the session, or all of them."""
+        with self._condition:
+            for job in [*self._waiting, *([self._current] if self._current else [])]:
+                if job.session == session and request in (None, job.request):
+                    job.cancelled = True
+            if self._current and self._current.cancelled:
+                self._kill_renderer()
+            self._condition.notify()
+
+    def close(self) -> None:
+        """Drop everything; the thread ends with the studio."""
+        with self._condition:
+            for job in [*self._waiting, *([self._current] if self._current else [])]:
+                job.cancelled = True
+            self._kill_renderer()
+            self._condition.notify()
+
+    @property
+    def renderer_pid(self) -> int | None:
+        """Process of the renderer, None while there is none."""
+        child: RenderChild | None = self.pipeline.__dict__.get("child")
+        return None if child is None else child.pid
+
+    def _kill_renderer(self) -> None:
+        """A render cannot be interrupted: the child that renders can."""
+        child: RenderChild | None = self.pipeline.__dict__.get("child")
+        if child is not None:
+            child.kill()
+
+    def run(self) -> None:
+        """Work until the studio closes."""
+        while True:
+            with self._condition:
+                self._condition.wait_for(lambda: self._waiting or self.studio.closing)
+                if self.studio.closing:
+                    break
+                job = self._current = self._waiting.popleft()
+            self.studio.update(job_state="working")
+            self._work(job)
+            with self._condition:
+                self._current = None
+            self.studio.update(job_state="idle")
+        self.pipeline.__exit__(None, None, None)
+
+    def _work(self, job: Job) -> None:
+        outcome = "finished"
+        try:
+            for frame, shown in job.frames:
+                self._frame(job, frame, shown)
+        except _Cancelled:
+            outcome = "cancelled"
+        except OutputError as error:
+            self._tell(job, ErrorCode.OUTPUT_FAILED, error)
+            outcome = "failed"
+        self.studio.deliver(
+            job.session,
+            Done(
+                request=job.request,
+                outcome=outcome,  # type: ignore[arg-type]
+                frames_done=job.done,
+                frames_total=len(job.frames),
+                frames_failed=job.failed,
+            ),
+            None,
+        )
+
+    def _frame(self, job: Job, frame: int, shown: Shown) -> None:
+        """Make one frame, or tell why not.
+
+        Raises:
+            OutputError: it cannot be written. _Cancelled: the job was cancelled.
+        """
+        target = job.path(frame)
+        self._progress(job, frame, 0.0)
+        if job.keep_finished and _is_whole(target):
+            self._frame_done(job, frame, target, kept=True)
+            return
+        try:
+            planes = self._planes(job, shown.digest)
+            with noticed_warnings() as noticed:
+                try:
+                    self._light(job, frame, shown, planes, target)
+                except NothingDrawnError as error:
+                    self._tell(job, ErrorCode.NOTHING_DRAWN, error, frame)
+                    self._save(target, planes)
+            for sentence in noticed:
+                self._tell(job, ErrorCode.DRAWING_WARNING, LampblackError(sentence), frame)
+        except (OutputError, _Cancelled):
+            raise
+        except RenderError as error:
+            self._fail(job, ErrorCode.RENDER_FAILED, error, frame)
+        except LampblackError as error:
+            self._fail(job, ErrorCode.DRAWING_UNUSABLE, error, frame)
+        except MemoryError:
+            self._fail(job, ErrorCode.OUT_OF_MEMORY, LampblackError(""), frame)
+        except Exception as error:
+            self._fail(job, ErrorCode.INTERNAL, LampblackError("", details=repr(error)), frame)
+        else:
+            self._frame_done(job, frame, target, kept=False)
+
+    def _light(self, job: Job, frame: int, shown: Shown, planes: Planes, target: Path) -> None:
+        drawing = take_planes_apart(planes)
+        scene = scene_in_view(job.scene, shown.camera, drawing.size)
+        self.pipeline.height(drawing, lambda share: self._progress(job, frame, 0.3 * share))
+        for attempt in range(ATTEMPTS):
+            self._progress(job, frame, 0.3)
+            try:
+                picture = self.pipeline.render(drawing, scene)
+                break
+            except RenderError as error:
+                self._check(job)
+                if attempt == ATTEMPTS - 1:
+                    raise
+                self.studio.update(job_state="restarting")
+                if attempt == 0:
+                    self._tell(job, ErrorCode.RENDER_RESTARTED, error, frame)
+        self.studio.update(job_state="working")
+        self._progress(job, frame, 0.99)
+        _make_folder(target.parent)
+        save_picture(target, picture)
+
+    def _save(self, target: Path, planes: Planes) -> None:
+        _make_folder(target.parent)
+        save_picture(target, planes["pixels"])
+
+    def _planes(self, job: Job, digest: str) -> Planes:
+        """The drawing's planes, asked for if they are not held."""
+        planes = self.studio.planes.get(digest)
+        if planes is None:
+            self.need(job.session, digest)
+            with self.studio.condition:
+                self.studio.condition.wait_for(
+                    lambda: digest in self.studio.planes or job.cancelled, PLANES_SECONDS
+                )
+            self._check(job)
+            planes = self.studio.planes.get(digest)
+        if planes is None:
+            raise LampblackError("The drawing was not sent.", "Render the frame again.")
+        return planes
+
+    def _check(self, job: Job) -> None:
+        if job.cancelled:
+            raise _Cancelled
+
+    def _progress(self, job: Job, frame: int, share: float) -> None:
+        self._check(job)
+        message = Progress(
+            request=job.request,
+            frame=frame,
+            share=share,
+            frames_done=job.done,
+            frames_total=len(job.frames),
+        )
+        self.studio.deliver(job.session, message, None)
+
+    def _frame_done(self, job: Job, frame: int, path: Path, *, kept: bool) -> None:
+        job.done += 1
+        message = FrameDone(request=job.request, frame=frame, path=str(path), kept=kept)
+        self.studio.deliver(job.session, message, None)
+
+    def _fail(self, job: Job, code: ErrorCode, error: LampblackError, frame: int) -> None:
+        job.failed += 1
+        self._tell(job, code, error, frame)
+
+    def _tell(
+        self, job: Job, code: ErrorCode, error: LampblackError, frame: int | None = None
+    ) -> None:
+        message = error_message(
+            code,
+            what=error.what,
+            remedy=error.remedy,
+            details=error.details,
+            request=job.request,
+            frame=frame,
+        )
+        self.studio.deliver(job.session, message, None)
+
+
+def job_scene(scene: Scene, quality: str) -> Scene:
+    """The scene at the quality that a job asks for."""
+    return replace(scene, quality=quality)  # type: ignore[arg-type]
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"The folder {folder} cannot be made.", "Choose another.", str(error)
+        ) from error
+
+
+def _is_whole(path: Path) -> bool:
+    try:
+        load_picture(path)
+    except LampblackError:
+        return False
+    return True

@@ -1,0 +1,157 @@
+"""A drawing made ready to be lit: its layers, its height, and what its relief wears."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from ..composite.sheet import Box, Sheet, sheet_of
+from ..drawing import Drawing, Palette, take_apart
+from ..normals.silhouette import inflated_normals
+from ..pipeline import Pipeline, surface_step
+from ..protocol import Pixels, Role
+from ..render import Surface, dress, standing_on
+from ..scene import Scene
+from ..surface import build_relief, solve
+
+COARSE_PX = 500
+"""Longest side at which a new drawing is first shown."""
+VERTICES = 250
+"""Vertices along the longer side of a preview's relief."""
+
+Grade = Literal["coarse", "fine"]
+Planes = dict[Role, Pixels]
+
+
+@dataclass(frozen=True)
+class Model:
+    """One drawing, ready to be lit.
+
+    Attributes:
+        digest: of the drawing. grade: coarse is inflated from the silhouette alone.
+        size: (width, height) of the drawing.
+        step: pixels of the drawing per pixel of ``sheet``.
+        sheet: its layers.
+        height: (h, w) float32, pixels of the drawing. mask: (h, w) bool.
+        normals: (h, w, 3) uint8, (n + 1) / 2 x 255; 0 outside the mask.
+        box: around the figure, pixels of the drawing.
+    """
+
+    digest: str
+    grade: Grade
+    size: tuple[int, int]
+    step: int
+    sheet: Sheet
+    height: NDArray[np.float32]
+    mask: NDArray[np.bool_]
+    normals: NDArray[np.uint8]
+    box: Box
+
+    @property
+    def nbytes(self) -> int:
+        """Memory it takes."""
+        return self.sheet.nbytes + self.height.nbytes + self.mask.nbytes + self.normals.nbytes
+
+    def surface(self, scene: Scene) -> Surface:
+        """The relief, in pixels of the drawing, in the materials of ``scene``."""
+        height, width = self.height.shape
+        scale = self.size[0] / width
+        relief = build_relief(
+            self.height / np.float32(scale),
+            self.mask,
+            stride=max(1, round(max(height, width) / VERTICES)),
+            relief_scale=scene.relief_scale,
+        )
+        relief = replace(relief, vertices=relief.vertices * np.float32(scale))
+        row, column = standing_on(self.sheet.labels, relief.vertices / np.float32(self.step))
+        albedo = self.sheet.albedo[row, column].astype(np.float32) / 255
+        return dress(relief, albedo, self.sheet.labels[row, column], self.sheet.palette, scene)
+
+
+def take_planes_apart(planes: Planes) -> Drawing:
+    """The drawing in the planes of a frame; see ``take_apart``."""
+    mask, ink = planes.get("mask"), planes.get("ink")
+    return take_apart(
+        planes["pixels"],
+        mask=None if mask is None else _grey(mask),
+        ink=None if ink is None else _grey(np.invert(ink)),
+    )
+
+
+def coarse_model(digest: str, planes: Planes) -> Model:
+    """A first model within a fraction of a second: small, and inflated from its silhouette.
+
+    Raises:
+        DrawingError: there is nothing to light.
+    """
+    height, width = planes["pixels"].shape[:2]
+    step = -(-max(width, height) // COARSE_PX)
+    drawing = take_planes_apart({role: _reduced(plane, step) for role, plane in planes.items()})
+    normals = inflated_normals(drawing.mask)
+    heights = solve(normals, drawing.mask) * np.float32(step)
+    return _model(digest, "coarse", (width, height), step, drawing, normals, heights)
+
+
+def fine_model(digest: str, drawing: Drawing, pipeline: Pipeline) -> Model:
+    """The model that finals are lit on, from normals of default quality."""
+    heights = pipeline.height(drawing)
+    normals = pipeline.normals(drawing)
+    return _model(digest, "fine", drawing.size, 1, drawing, normals, heights)
+
+
+def _model(
+    digest: str,
+    grade: Grade,
+    size: tuple[int, int],
+    step: int,
+    drawing: Drawing,
+    normals: NDArray[np.float32],
+    heights: NDArray[np.float32],
+) -> Model:
+    mask = drawing.mask
+    stride = surface_step(drawing)
+    if stride > 1:
+        mask = mask[stride // 2 :: stride, stride // 2 :: stride]
+        mask = mask[: heights.shape[0], : heights.shape[1]]
+    rows, columns = (np.flatnonzero(drawing.mask.any(axis=axis)) for axis in (1, 0))
+    left, top = columns[0] - 2, rows[0] - 2
+    box = (left, top, columns[-1] + 3 - left, rows[-1] + 3 - top)
+    shown = np.rint((normals + 1) * 127.5) * drawing.mask[..., None]
+    return Model(
+        digest=digest,
+        grade=grade,
+        size=size,
+        step=step,
+        sheet=sheet_of(drawing),
+        height=heights,
+        mask=mask,
+        normals=shown.astype(np.uint8),
+        box=(
+            float(box[0] * step),
+            float(box[1] * step),
+            float(box[2] * step),
+            float(box[3] * step),
+        ),
+    )
+
+
+def palette_of(model: Model) -> Palette:
+    """The flat colours of the drawing."""
+    return model.sheet.palette
+
+
+def _grey(plane: Pixels) -> Pixels:
+    """An opaque grey picture, as masks and ink are read."""
+    return np.dstack([plane, plane, plane, np.full_like(plane, 255)])
+
+
+def _reduced(plane: Pixels, step: int) -> Pixels:
+    if step == 1:
+        return plane
+    if plane.ndim == 2:
+        return np.asarray(Image.fromarray(plane).reduce(step))
+    return np.asarray(Image.fromarray(plane).convert("RGBa").reduce(step).convert("RGBA"))
