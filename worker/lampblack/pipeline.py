@@ -77,6 +77,10 @@ class Pipeline:
     def warm_up(self) -> None:
         """Load the network and start the renderer before the first drawing comes."""
         self.child.start()
+        self.load_network()
+
+    def load_network(self) -> None:
+        """Load the network alone."""
         _ = self._predictor
 
     def normals(

@@ -24,6 +24,7 @@ class Benchmark(StrEnum):
     INFLATE = "inflate"
     NORMALS = "normals"
     FINAL = "final"
+    RELIGHT = "relight"
 
 
 def bench(
@@ -31,7 +32,7 @@ def bench(
     drawing: Annotated[
         Path | None, typer.Argument(metavar="[DRAWING]", help="Default: the example character.")
     ] = None,
-    scene: Annotated[Path | None, typer.Option("--scene", help="For final.")] = None,
+    scene: Annotated[Path | None, typer.Option("--scene", help="For final and relight.")] = None,
     reference: Annotated[
         bool, typer.Option("--reference", help="final: also measure noise (minutes).")
     ] = False,
@@ -52,6 +53,10 @@ def bench(
         from ..bench.normals import bench_normals
 
         figures = bench_normals(picture)
+    elif what is Benchmark.RELIGHT:
+        from ..bench.relight import bench_relight
+
+        figures = bench_relight(picture, _scene(scene, drawing, picture.shape))
     else:
         from ..bench.final import bench_final
 

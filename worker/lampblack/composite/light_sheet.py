@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
+from scipy import ndimage
 
-from ..scene import Scene
+from ..drawing.palette import Palette
+from ..scene import Scene, default_scene
 from .colour import linear, srgb
 from .composite import KNEE
 from .resample import Band, enlarge
@@ -22,6 +24,7 @@ STEPS = 4096
 _LINEAR = linear(np.arange(256) / 255)
 _SRGB = srgb(np.arange(STEPS + 2) / STEPS)
 _UNIT = np.ones((1, 1, 3), np.float32)
+_UNSHADED = np.ones((1, 1), np.bool_)
 _DARK = np.zeros((1, 1, 3), np.float32)
 
 
@@ -75,11 +78,27 @@ def light_sheet(sheet: Sheet, crop: Box, light: Light, scene: Scene) -> NDArray[
         sheet.pixels, sheet.albedo, sheet.ink, sheet.ink_colour, sheet.coverage, sheet.labels,
         kinds, gloss,
         light.diffuse, light.glossy, _steps(crop, sheet.size, light.figure),
-        _UNIT if light.floor is None else light.floor, light.floor is not None,
+        _UNIT if light.floor is None else light.floor,
+        _UNSHADED if light.floor is None else _unshaded(light.floor), light.floor is not None,
         _steps(crop, sheet.size, light.ground),
         _LINEAR, _SRGB, lit,
     )  # fmt: skip
     return lit
+
+
+def _unshaded(floor: Floats) -> NDArray[np.bool_]:
+    """(h, w) bool: no pixel of the drawing that falls into this one is in shadow."""
+    clear = (np.abs(floor - 1) < 1e-3).all(axis=2)
+    return np.asarray(ndimage.minimum_filter(clear, 3, mode="nearest"))
+
+
+def warm_up() -> None:
+    """Load the compiled loop, or compile it."""
+    grey, bytes_ = np.zeros((1, 1, 3), np.uint8), np.zeros((1, 1), np.uint8)
+    label = np.full((1, 1), -1, np.int16)
+    sheet = Sheet(np.zeros((1, 1, 4), np.uint8), grey, bytes_, grey, bytes_, label, Palette(()))
+    area = 0.0, 0.0, 1.0, 1.0
+    light_sheet(sheet, area, Light(_DARK, _DARK, area, _UNIT), default_scene(1, 1))
 
 
 def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, float, float]:
@@ -119,7 +138,7 @@ def _light(
     pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any, labels: Any,
     kinds: Any, gloss: Any,
     diffuse: Any, glossy: Any, on_figure: Any,
-    floor: Any, has_floor: bool, on_ground: Any,
+    floor: Any, unshaded: Any, has_floor: bool, on_ground: Any,
     to_linear: Any, to_srgb: Any, lit: Any,
 ) -> None:  # fmt: skip
     byte, one, zero = np.float32(1 / 255), np.float32(1), np.float32(0)
@@ -129,7 +148,15 @@ def _light(
             alpha = pixels[row, column, 3] * byte
             cover = coverage[row, column] * byte
             behind = alpha - cover
-            if cover == 0 and not has_floor:
+            across, down = on_ground[1] + column * on_ground[0], on_ground[3] + row * on_ground[2]
+            shaded = (
+                has_floor
+                and not unshaded[
+                    min(max(int(down * unshaded.shape[0]), 0), unshaded.shape[0] - 1),
+                    min(max(int(across * unshaded.shape[1]), 0), unshaded.shape[1] - 1),
+                ]
+            )
+            if cover == 0 and not shaded:
                 for c in range(4):
                     lit[row, column, c] = pixels[row, column, c]
                 continue
@@ -165,17 +192,14 @@ def _light(
                 colour = _encode(to_srgb, fill[c] * scale)
                 colour += line * (tone - colour)
                 paint = pixels[row, column, c] * byte - cover * drawn
-                if has_floor:
-                    ratio = _sample(
-                        floor, on_ground[1] + column * on_ground[0],
-                        on_ground[3] + row * on_ground[2], c,
-                    )  # fmt: skip
+                if shaded:
+                    ratio = _sample(floor, across, down, c)
                     plain = min(max(paint / max(behind, np.float32(1e-3)), zero), one)
                     paint = behind * _encode(to_srgb, to_linear[int(plain * 255)] * ratio)
                     shown[c] = _encode(to_srgb, ratio)
                     darkest = min(darkest, shown[c])
                 fill[c] = cover * colour + paint
-            if has_floor:
+            if shaded:
                 bare = min(max(one - cover - behind, zero), one)
                 for c in range(3):
                     fill[c] += bare * (shown[c] - darkest)

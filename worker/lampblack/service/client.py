@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -168,14 +169,20 @@ class Worker:
     Args:
         folder: for its connection file.
         parent: it leaves when this process does.
+        environment: variables of its own.
     """
 
-    def __init__(self, folder: Path, parent: int | None = None) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        parent: int | None = None,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
         self.connection = folder / "connection.json"
         command = [sys.executable, "-m", "lampblack", "serve", "--connection", str(self.connection)]
         if parent is not None:
             command += ["--parent-pid", str(parent)]
-        self.process = subprocess.Popen(command)
+        self.process = subprocess.Popen(command, env={**os.environ, **(environment or {})})
 
     def __enter__(self) -> Self:
         return self

@@ -125,7 +125,9 @@ class Jobs:
             self._work(job)
             with self._condition:
                 self._current = None
-            self.studio.update(job_state="idle")
+            if not self._waiting:
+                self.pipeline.child.close()  # a renderer of finals holds much memory
+            self.studio.update(job_state="off" if self.pipeline.child.pid is None else "idle")
         self.pipeline.__exit__(None, None, None)
 
     def _work(self, job: Job) -> None:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from ..drawing import Drawing, Palette
 from ..errors import LampblackError, NothingDrawnError
 from ..pipeline import Pipeline
 from ..protocol import ErrorCode, error_message
+from ..scene import default_scene
 from .model import Grade, Model, coarse_model, fine_model, take_planes_apart
 from .noticed import noticed_warnings
 from .studio import Studio
@@ -36,6 +40,7 @@ class Modeller:
 
     def run(self) -> None:
         """Make models until the studio closes."""
+        self._warm_up()
         while True:
             with self.studio.condition:
                 self.studio.condition.wait_for(lambda: self.studio.closing or self._next())
@@ -44,6 +49,14 @@ class Modeller:
                 order = self._next()
             if order is not None:
                 self._make(order)
+
+    def _warm_up(self) -> None:
+        """Load the network and what is compiled, before the first drawing comes."""
+        disk = np.zeros((64, 64, 4), np.uint8)
+        disk[12:52, 12:52] = 120, 120, 120, 255
+        with noticed_warnings(), suppress(LampblackError):
+            coarse_model("", {"pixels": disk}).surface(default_scene(64, 64))
+            self.pipeline.load_network()
 
     def _next(self) -> Order | None:
         """The most urgent model that is missing and can be made."""

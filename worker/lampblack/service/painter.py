@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..composite.light_sheet import Light, add_up, light_sheet
+from ..composite.light_sheet import Light, add_up, light_sheet, warm_up
 from ..composite.shadow import FAINT
 from ..composite.sheet import Sheet, cut_picture
 from ..protocol import Crop, Image
@@ -63,6 +63,7 @@ class Painter:
 
     def run(self) -> None:
         """Paint until closed."""
+        warm_up()
         while True:
             with self._condition:
                 self._condition.wait_for(lambda: self._closing or self._todo)

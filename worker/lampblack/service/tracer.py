@@ -31,8 +31,8 @@ from .studio import Developed, Studio
 
 REST_SECONDS = 0.1
 """Stillness after which light is refined."""
-MOST_SECONDS = 0.040
-"""Longest that one pass may take while something changes."""
+MOST_SECONDS = 0.036
+"""Longest that one light's pass should take while something changes."""
 TICK_SECONDS = 1.0
 MAX_SURFACES = 6
 MAX_FAILURES = 3
@@ -178,7 +178,7 @@ class Tracer:
         """Choose how fine the next passing trace is by how long this one took."""
         if seconds > MOST_SECONDS:
             self._pace, self._quick = max(0, self._pace - 1), 0
-        elif seconds < MOST_SECONDS * 0.55:
+        elif seconds < MOST_SECONDS * 0.6:
             self._quick += 1
             if self._quick >= 8:
                 self._pace, self._quick = min(len(MOVING) - 1, self._pace + 1), 0
