@@ -73,14 +73,19 @@ def _put_frame(server: Server, session: Session, message: PutFrame, planes: Plan
         )
         with server.studio.condition:
             server.studio.condition.notify_all()
+    before = session.frames.get(message.frame)
+    if before is not None and before.digest != message.digest:
+        session.asked.discard(before.digest)  # a client does not send what no frame shows
     session.frames[message.frame] = Shown(message.digest, message.camera)
-    server.changed()
+    server.planner.changed()
 
 
 def _drop_frame(server: Server, session: Session, message: DropFrame, planes: Planes) -> None:
-    session.frames.pop(message.frame, None)
+    before = session.frames.pop(message.frame, None)
+    if before is not None:
+        session.asked.discard(before.digest)
     session.palettes = [wait for wait in session.palettes if wait[1] != message.frame]
-    server.changed()
+    server.planner.changed()
 
 
 def _set_scene(server: Server, session: Session, message: SetScene, planes: Planes) -> None:
@@ -88,7 +93,7 @@ def _set_scene(server: Server, session: Session, message: SetScene, planes: Plan
         server.send(session, error_message(ErrorCode.STALE_REVISION, details=f"{message.revision}"))
         return
     session.revision, session.scene = message.revision, message.scene
-    server.changed()
+    server.planner.changed()
 
 
 def _look(server: Server, session: Session, message: Preview | View, planes: Planes) -> None:
@@ -110,7 +115,7 @@ def _look(server: Server, session: Session, message: Preview | View, planes: Pla
         code = ErrorCode.NO_SCENE
     if code is not None:
         server.send(session, error_message(code, request=message.request, frame=message.frame))
-    server.changed()
+    server.planner.changed()
 
 
 def _get_palette(server: Server, session: Session, message: GetPalette, planes: Planes) -> None:
@@ -123,7 +128,7 @@ def _get_palette(server: Server, session: Session, message: GetPalette, planes: 
         )
     else:
         session.palettes = [*session.palettes[-255:], (message.request, message.frame)]
-        server.changed()
+        server.planner.changed()
 
 
 def _render(server: Server, session: Session, message: Render, planes: Planes) -> None:
@@ -155,7 +160,7 @@ def _render(server: Server, session: Session, message: Render, planes: Planes) -
 def _cancel(server: Server, session: Session, message: Cancel, planes: Planes) -> None:
     if session.look is not None and session.look.request == message.request:
         session.look = None
-        server.changed()
+        server.planner.changed()
     else:
         server.jobs.cancel(session.name, message.request)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ..composite.sheet import Box, Sheet, sheet_of
-from ..drawing import Drawing, Palette, take_apart
+from ..drawing import Drawing, take_apart
 from ..normals.silhouette import inflated_normals
 from ..pipeline import Pipeline, surface_step
 from ..protocol import Pixels, Role
@@ -91,16 +91,24 @@ def coarse_model(digest: str, planes: Planes) -> Model:
     height, width = planes["pixels"].shape[:2]
     step = -(-max(width, height) // COARSE_PX)
     drawing = take_planes_apart({role: _reduced(plane, step) for role, plane in planes.items()})
-    normals = inflated_normals(drawing.mask)
-    heights = solve(normals, drawing.mask) * np.float32(step)
-    return _model(digest, "coarse", (width, height), step, drawing, normals, heights)
+    cover = Image.fromarray(drawing.mask.astype(np.uint8) * 255)
+    mask = np.asarray(cover.resize(_half(drawing.size), Image.Resampling.BOX)) > 96
+    if not mask.any():
+        mask = drawing.mask
+    normals = inflated_normals(mask)
+    heights = solve(normals, mask) * np.float32(width / mask.shape[1])
+    return _model(digest, "coarse", (width, height), step, drawing, mask, normals, heights)
 
 
 def fine_model(digest: str, drawing: Drawing, pipeline: Pipeline) -> Model:
     """The model that finals are lit on, from normals of default quality."""
-    heights = pipeline.height(drawing)
-    normals = pipeline.normals(drawing)
-    return _model(digest, "fine", drawing.size, 1, drawing, normals, heights)
+    heights, normals, mask = pipeline.height(drawing), pipeline.normals(drawing), drawing.mask
+    stride = surface_step(drawing)
+    if stride > 1:
+        rows, columns = heights.shape
+        middle = np.s_[stride // 2 :: stride, stride // 2 :: stride]
+        mask, normals = mask[middle][:rows, :columns], normals[middle][:rows, :columns]
+    return _model(digest, "fine", drawing.size, 1, drawing, mask, normals, heights)
 
 
 def _model(
@@ -109,18 +117,14 @@ def _model(
     size: tuple[int, int],
     step: int,
     drawing: Drawing,
+    mask: NDArray[np.bool_],
     normals: NDArray[np.float32],
     heights: NDArray[np.float32],
 ) -> Model:
-    mask = drawing.mask
-    stride = surface_step(drawing)
-    if stride > 1:
-        mask = mask[stride // 2 :: stride, stride // 2 :: stride]
-        mask = mask[: heights.shape[0], : heights.shape[1]]
     rows, columns = (np.flatnonzero(drawing.mask.any(axis=axis)) for axis in (1, 0))
     left, top = columns[0] - 2, rows[0] - 2
     box = (left, top, columns[-1] + 3 - left, rows[-1] + 3 - top)
-    shown = np.rint((normals + 1) * 127.5) * drawing.mask[..., None]
+    shown = np.rint((normals + 1) * 127.5) * mask[..., None]
     return Model(
         digest=digest,
         grade=grade,
@@ -139,9 +143,8 @@ def _model(
     )
 
 
-def palette_of(model: Model) -> Palette:
-    """The flat colours of the drawing."""
-    return model.sheet.palette
+def _half(size: tuple[int, int]) -> tuple[int, int]:
+    return max(1, size[0] // 2), max(1, size[1] // 2)
 
 
 def _grey(plane: Pixels) -> Pixels:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..composite.light_sheet import Light, add_up, light_sheet, warm_up
 from ..composite.shadow import FAINT
 from ..composite.sheet import Sheet, cut_picture
-from ..protocol import Crop, Image
+from ..protocol import Crop, ErrorCode, Image, error_message
 from .bounded import BoundedStore
 from .model import Model
 from .snapshot import Snapshot, scene_in_view
@@ -69,10 +69,16 @@ class Painter:
                 self._condition.wait_for(lambda: self._closing or self._todo)
                 if self._closing:
                     return
-                _, snapshots = self._todo.popitem()
-            for order in sorted(snapshots, reverse=True):
-                if self._paint(snapshots[order]):
-                    break
+                session, snapshots = self._todo.popitem()
+            try:
+                for order in sorted(snapshots, reverse=True):
+                    if self._paint(snapshots[order]):
+                        break
+            except Exception as error:  # one client's trouble is not the others'
+                details = repr(error)
+                self.studio.deliver(
+                    session, error_message(ErrorCode.INTERNAL, details=details), None
+                )
 
     def _paint(self, snapshot: Snapshot) -> bool:
         """Paint and send, unless that would show something older or nothing new; False if the
@@ -201,8 +207,7 @@ def _view(model: Model, snapshot: Snapshot) -> Picture:
         low, high = float(model.height.min()), float(model.height.max())
         grey = np.clip((model.height - low) / max(high - low, 1e-6), 0, 1) * 255
         colour = np.repeat(np.rint(grey)[..., None], 3, axis=2).astype(np.uint8)
-    mask = model.mask if snapshot.look.show == "relief" else (model.sheet.labels >= 0)
-    alpha = mask.astype(np.uint8)[..., None]
+    alpha = model.mask.astype(np.uint8)[..., None]
     return _cut(np.concatenate([colour * alpha, alpha * 255], axis=2), model, snapshot)
 
 

@@ -50,20 +50,20 @@ class Tracer:
     _quick: int = 0
     _surfaces: OrderedDict[Hashable, Surface] = field(default_factory=OrderedDict)
     _failures: dict[Hashable, int] = field(default_factory=dict)
-    _started: bool = False
+    _losses: int = 0
 
     def run(self) -> None:
         """Trace until the studio closes."""
         self._warm_up()
         while not self.studio.closing:
-            self._watch_child()
             try:
-                busy = self._step()
+                self._watch_child()
+                if not self._step():
+                    self._rest()
             except RenderError as error:
-                self._tell_of_loss(error)
-                continue
-            if not busy:
-                self._rest()
+                self._recover(error)
+            except Exception as error:  # one scene's trouble must not end all previews
+                self._recover(RenderError("A preview could not be made.", details=repr(error)))
         self.child.close()
 
     def _rest(self) -> None:
@@ -71,8 +71,7 @@ class Tracer:
         with self.studio.condition:
             if self.studio.closing:
                 return
-            if self.studio.preview_state != "idle":
-                self.studio.preview_state = "idle"
+            self.studio.preview_state = "idle"
             still = self.studio.still_for()
             self.studio.condition.wait(
                 REST_SECONDS - still if still < REST_SECONDS else TICK_SECONDS
@@ -164,6 +163,7 @@ class Tracer:
         first_half, second_half = found
         light = Developed(level, rung.spp, source.amounts, first_half, second_half)
         self.studio.lights.put(source, light)
+        self._losses = 0
         return True
 
     def _usable(self, source: Source) -> bool:
@@ -184,14 +184,14 @@ class Tracer:
                 self._pace, self._quick = min(len(MOVING) - 1, self._pace + 1), 0
 
     def _surface(self, model: Model, scene: Scene) -> Surface:
-        key = (
-            model.digest,
-            model.grade,
-            scene.relief_scale,
-            tuple(
-                scene.material(swatch.colour) for swatch in model.sheet.palette.swatches
-            ).__repr__(),
+        wear = tuple(
+            (material.glossy, material.gloss, material.roughness)
+            for material in (
+                *(scene.material(swatch.colour) for swatch in model.sheet.palette.swatches),
+                scene.default_material,
+            )
         )
+        key = model.digest, model.grade, scene.relief_scale, wear
         if key not in self._surfaces:
             self._surfaces[key] = model.surface(scene)
             if len(self._surfaces) > MAX_SURFACES:
@@ -200,8 +200,7 @@ class Tracer:
         return self._surfaces[key]
 
     def _work(self) -> None:
-        if self.studio.preview_state == "idle":
-            self.studio.preview_state = "working"
+        self.studio.preview_state = "working"
 
     def _warm_up(self) -> None:
         """Start the renderer, and have it trace a little, so that all it needs is loaded."""
@@ -215,22 +214,25 @@ class Tracer:
         try:
             self.child.expose(Surface(relief, *white), job)
         except RenderError as error:
-            self._tell_of_loss(error)
-        self._started = True
+            self._recover(error)
         self.studio.update(preview_state="idle")
 
     def _watch_child(self) -> None:
         """Notice that the renderer went away while it had nothing to do."""
-        if self._started and not self.child.alive and not self.studio.closing:
-            self._tell_of_loss(RenderError("The renderer stopped unexpectedly."))
+        if not self.child.alive and not self.studio.closing:
+            raise RenderError("The renderer stopped unexpectedly.")
 
-    def _tell_of_loss(self, error: RenderError) -> None:
+    def _recover(self, error: RenderError) -> None:
+        """Start the renderer again and tell, once; when it is lost again and again, wait longer
+        each time, so that nobody is told without end."""
         if self.studio.closing:
             return
-        self.studio.preview_state = "restarting"
-        spent = any(count == MAX_FAILURES for count in self._failures.values())
-        if spent:
-            self._failures = {key: count + 1 for key, count in self._failures.items()}
-        code = ErrorCode.RENDER_FAILED if spent else ErrorCode.RENDER_RESTARTED
-        self.studio.tell_all(code, details=f"{error.what} {error.details}")
+        self._losses += 1
+        self.studio.update(preview_state="restarting")
+        if self._losses <= MAX_FAILURES:
+            spent = self._losses == MAX_FAILURES
+            code = ErrorCode.RENDER_FAILED if spent else ErrorCode.RENDER_RESTARTED
+            self.studio.tell_all(code, details=f"{error.what} {error.details}")
+        else:
+            time.sleep(min(30.0, 0.5 * 2 ** (self._losses - MAX_FAILURES)))
         self.child.start()
