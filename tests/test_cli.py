@@ -102,6 +102,9 @@ def test_frames_are_chosen_by_number(run: Run, tmp_path: Path, unrendered: list[
     pattern, out = tmp_path / "a%04d.png", tmp_path / "lit"
     assert run("render", pattern, "-o", out, "--frames", "1-5x2,7").code == 0
     assert files(out) == {f"a{n:04d}.png" for n in (1, 3, 5, 7)}
+    partly = run("render", pattern, "-o", out, "--frames", "6-9")
+    assert partly.code == 0
+    assert "8, 9" in partly.err
     missed = run("render", pattern, "-o", out, "--frames", "90")
     assert missed.code == 1
     assert "1 to 7" in missed.err
@@ -202,6 +205,8 @@ def test_blank_frames_of_a_sequence_pass_through_unlit(
     assert done.code == 3
     assert "unlit" in done.err
     assert (load_picture(out / "a.0001.png") == 0).all()
+    assert run("scene", folder, "-o", tmp_path / "scene.json").code == 0
+    assert run("palette", folder).code == 0
 
 
 def test_frames_of_other_sizes_are_lit_with_a_warning(
@@ -236,6 +241,16 @@ def test_bad_scenes_are_told(
     assert run("render", ball_png, "-o", tmp_path / "lit", "--scene", tmp_path / "no").code == 1
 
 
+@pytest.mark.parametrize("line", ["nan", "1e30", "inf"])
+def test_bad_floors_are_told(
+    run: Run, tmp_path: Path, ball_png: Path, unrendered: list[str], line: str
+) -> None:
+    done = run("render", ball_png, "-o", tmp_path / "lit", "--floor", line)
+    assert done.code == 1
+    assert "floor" in done.err
+    assert not unrendered
+
+
 @pytest.mark.parametrize("light", ["1,2", "a,b,c", "nan,1,2", "1,2,1e30", ""])
 def test_bad_lights_are_told(
     run: Run, tmp_path: Path, ball_png: Path, unrendered: list[str], light: str
@@ -257,6 +272,10 @@ def test_output_that_would_lose_something_is_refused(
     assert run("render", ball_png, other, "-o", tmp_path / "lit").code == 1
     assert run("mesh", ball_png, "-o", tmp_path / "ball.fbx").code == 1
     assert run("normals", ball_png, "-o", tmp_path / "nowhere" / "n.npy").code == 1
+    assert run("normals", ball_png, "-o", ball_png).code == 1
+    lit = ("-o", tmp_path / "lit")
+    assert run("render", ball_png, *lit, "--contact-sheet", ball_png).code == 1
+    assert run("render", ball_png, *lit, "--contact-sheet", tmp_path / "sheet.jpg").code == 1
     assert ball_png.read_bytes() == before
     assert not unrendered
 
@@ -286,13 +305,19 @@ def test_a_full_disk_keeps_what_is_finished(
     save_picture(drawings / "a.2.png", noise)
     done = run("render", drawings, "-o", full_disk)
     assert done.code == 1
+    assert "Failed: a.2.png" in done.err
     assert "could not be written" in done.err
     assert files(full_disk) == {"a.1.png"}
     assert np.array_equal(load_picture(full_disk / "a.1.png"), draw_ball(64))
 
 
+def children_of(pid: int) -> list[int]:
+    tasks = Path(f"/proc/{pid}/task").glob("*/children")
+    return [int(child) for task in tasks for child in task.read_text().split()]
+
+
 @pytest.mark.cycles
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_interrupting_leaves_finished_frames_and_nothing_else(
     tmp_path: Path, number: signal.Signals
 ) -> None:
@@ -305,15 +330,19 @@ def test_interrupting_leaves_finished_frames_and_nothing_else(
     deadline = time.monotonic() + 120
     while not list(out.glob("a.*.png")) and time.monotonic() < deadline:
         time.sleep(0.1)
+    children = children_of(process.pid)
+    assert children
     os.kill(process.pid, number)
     _, shown = process.communicate(timeout=60)
     assert process.returncode == 128 + number
     assert b"Traceback" not in shown
+    if number == signal.SIGINT:
+        assert b"what was finished is kept" in shown
     finished = files(out)
     assert 1 <= len(finished) < 39
     assert all(load_picture(out / name).shape == (96, 96, 4) for name in finished)
-    left = subprocess.run(["pgrep", "-g", str(process.pid)], capture_output=True, text=True)
-    assert left.stdout == ""
+    time.sleep(0.5)
+    assert not any(Path(f"/proc/{child}").exists() for child in children)
 
 
 def test_help_has_an_example_for_every_command(run: Run) -> None:
@@ -343,3 +372,18 @@ def test_lights_past_the_fourth_are_refused(
     scene = tmp_path / "scene.json"
     scene.write_bytes(encode_scene(default_scene(160, 160)))
     assert run("render", ball_png, "-o", tmp_path / "lit", "--scene", scene).code == 0
+
+
+def test_names_are_told_as_they_are(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "bad [red] [x].png").write_text("")
+    assert "bad [red] [x].png" in run("render", tmp_path, "-o", tmp_path / "lit").err
+
+
+def test_the_number_of_a_pattern_may_stand_anywhere(
+    run: Run, tmp_path: Path, unrendered: list[str]
+) -> None:
+    for number in (2, 10):
+        save_picture(tmp_path / f"w_{number}_final.png", draw_ball(64, (9 * number, 40, 60)))
+    out = tmp_path / "lit"
+    assert run("render", tmp_path / "w_%d_final.png", "-o", out, "--frames", "10").code == 0
+    assert files(out) == {"w_10_final.png"}

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from lampblack.drawing import Frame, find_frames, parse_frames, select_frames
-from lampblack.errors import DrawingError
+from lampblack.errors import DrawingError, LampblackWarning
 
 
 @pytest.fixture
@@ -87,6 +87,8 @@ def test_bad_frame_lists(text: str) -> None:
 
 def test_select() -> None:
     frames = [Frame(n, Path(f"a.{n}.png")) for n in (1, 2, 5)]
-    assert numbers(select_frames(frames, parse_frames("2-9"))) == [2, 5]
+    assert numbers(select_frames(frames, parse_frames("1-5x4"))) == [1, 5]
+    with pytest.warns(LampblackWarning, match="3, 4, 6"):
+        assert numbers(select_frames(frames, parse_frames("2-9"))) == [2, 5]
     with pytest.raises(DrawingError, match="from 1 to 5"):
         select_frames(frames, [3])

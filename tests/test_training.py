@@ -85,6 +85,23 @@ def test_training_goes_on_where_it_was_stopped(models: Path, tmp_path: Path) -> 
     assert table["inflate"]["mean_degrees"] < table["flat"]["mean_degrees"]
 
 
+def test_models_and_runs_that_cannot_be_used_are_told(models: Path, tmp_path: Path) -> None:
+    barren = tmp_path / "barren"
+    barren.mkdir()
+    (barren / "a.obj").write_text("junk")
+    with pytest.raises(LampblackError, match="models"):
+        train(barren, tmp_path / "run", NetworkCard(), TrainingOptions())
+    (barren / "split.csv").write_text("name\na\n")
+    with pytest.raises(LampblackError):
+        find_models(barren, "train")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(LampblackError):
+        train(models, tmp_path / "file" / "run", NetworkCard(), TrainingOptions())
+    (tmp_path / "run" / "checkpoint.safetensors").write_bytes(b"junk")
+    with pytest.raises(LampblackError, match="damaged"):
+        train(models, tmp_path / "run", NetworkCard(), TrainingOptions())
+
+
 def test_weights_round_trip_and_foreign_files_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "net.safetensors"
     card = NetworkCard(measured={"val": 23.0})

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
+
 import typer
 
 from .. import __version__
 from .bench import bench
-from .console import for_people
+from .console import EXIT_INTERRUPTED, console, for_people
 from .doctor import doctor
 from .learn import evaluate, train
 from .render import render
@@ -20,8 +23,24 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Light hand-drawn animation with real global illumination.",
 )
+
+
+def _interruptible(command: Callable[..., None]) -> Callable[..., None]:
+    """Ctrl-C ends ``command`` with a sentence, before typer ends it without one."""
+
+    @functools.wraps(command)
+    def call(*arguments: object, **options: object) -> None:
+        try:
+            command(*arguments, **options)
+        except KeyboardInterrupt:
+            console.print("Interrupted; what was finished is kept.")
+            raise typer.Exit(EXIT_INTERRUPTED) from None
+
+    return call
+
+
 for command in (render, serve, normals, mesh, palette, scene, train, evaluate, bench, doctor):
-    app.command()(command)
+    app.command()(_interruptible(command))
 
 
 def _version(wanted: bool) -> None:

@@ -25,8 +25,8 @@ EXIT_INTERRUPTED = 130
 
 def print_error(error: LampblackError, subject: str = "") -> None:
     """What happened, what to do, and details to copy."""
-    console.print(f"[bold red]error:[/] {subject}", end="")
-    console.print(error.what, markup=False)
+    console.print("[bold red]error:[/] ", end="")
+    console.print(subject + error.what, markup=False)
     if error.remedy:
         console.print(f"  {error.remedy}", markup=False)
     if error.details:
@@ -48,9 +48,11 @@ def _terminate(number: int, frame: FrameType | None) -> NoReturn:
 def for_people() -> Iterator[None]:
     """Run a command: warnings and faults are told in sentences, and the exit code says which.
 
-    SIGTERM unwinds like Ctrl-C does, so that no half-written file and no child stay behind.
+    SIGTERM and a closed terminal unwind like Ctrl-C does, so that no half-written file and no
+    child stay behind.
     """
-    signal.signal(signal.SIGTERM, _terminate)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _terminate)
     warnings.simplefilter("ignore")
     warnings.simplefilter("always", LampblackWarning)
     warnings.showwarning = _print_warning
@@ -59,9 +61,6 @@ def for_people() -> Iterator[None]:
     except LampblackError as error:
         print_error(error)
         sys.exit(EXIT_FAILED)
-    except KeyboardInterrupt:
-        console.print("Interrupted; what was finished is kept.")
-        sys.exit(EXIT_INTERRUPTED)
     except MemoryError:
         print_error(LampblackError("There is not enough memory.", "Close other programs."))
         sys.exit(EXIT_FAILED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from ..cache import ArrayCache, user_cache_folder
 from ..drawing import Drawing, load_picture, take_apart
 from ..errors import LampblackError, SceneError
-from ..scene import MAX_LIGHTS, AreaLight, Canvas, Scene, decode_scene, default_light
+from ..scene import MAX_LIGHTS, AreaLight, Canvas, Floor, Scene, decode_scene, default_light
 
 
 class QualityName(StrEnum):
@@ -93,6 +94,23 @@ def lights_at(texts: list[str], canvas: Canvas) -> tuple[AreaLight, ...]:
     if len(texts) > MAX_LIGHTS:
         raise SceneError(f"{len(texts)} lights were named; {MAX_LIGHTS} is the most.")
     return tuple(default_light(canvas, *parse_light(text)) for text in texts)
+
+
+def floor_at(line: float) -> Floor:
+    """The default floor at this canvas line.
+
+    Raises:
+        SceneError: not finite, or beyond a canvas's reach.
+    """
+    if not abs(line) <= 1e5:
+        raise SceneError(f"The floor {line} is out of range.", "Stay within 100000 pixels.")
+    return Floor(line)
+
+
+def keep_inputs(output: Path, inputs: Iterable[Path]) -> None:
+    """Refuse an output that would replace one of the inputs."""
+    if output.exists() and any(path.exists() and path.samefile(output) for path in inputs):
+        raise LampblackError(f"{output} is one of the inputs; it would be lost.", "Choose another.")
 
 
 def check_suffix(path: Path, *suffixes: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -26,7 +26,7 @@ from ..drawing.contact_sheet import contact_sheet
 from ..errors import LampblackError, LampblackWarning, NothingDrawnError, OutputError
 from ..normals.predict import DEFAULT_GRIDS
 from ..pipeline import Pipeline, PipelineOptions
-from ..scene import Canvas, Floor, Scene, default_scene
+from ..scene import Canvas, Scene, default_scene
 from .console import EXIT_FAILED, EXIT_UNLIT, console, print_error, progress_bar
 from .options import (
     GridsOption,
@@ -35,6 +35,9 @@ from .options import (
     QualityName,
     Solver,
     SolverOption,
+    check_suffix,
+    floor_at,
+    keep_inputs,
     lights_at,
     open_cache,
     read_scene,
@@ -49,7 +52,11 @@ def render(
     scene: Annotated[Path | None, typer.Option("--scene", help="Scene file.")] = None,
     light: Annotated[
         list[str] | None,
-        typer.Option("--light", metavar="X,Y,Z", help="A white light, canvas pixels."),
+        typer.Option(
+            "--light",
+            metavar="X,Y,Z",
+            help="A white light, canvas pixels, instead of the scene's; up to 4 times.",
+        ),
     ] = None,
     floor: Annotated[
         float | None, typer.Option("--floor", metavar="Y", help="Shadow catcher at this line.")
@@ -80,38 +87,43 @@ def render(
     if frames is not None:
         found = select_frames(found, parse_frames(frames))
     _prepare_output(output, found)
+    if sheet is not None:
+        check_suffix(sheet, ".png")
+        keep_inputs(sheet, [frame.path for frame in found])
     read = None if scene is None else read_scene(scene)
-    lights_at(light or [], Canvas(1, 1))  # a mistyped light is told before any work
+    # What is mistyped is told before any work.
+    lights_at(light or [], Canvas(1, 1))
+    hinge = None if floor is None else floor_at(floor)
 
     def stage(width: int, height: int) -> Scene:
         """The scene for a drawing of this size: the file's or the default, with the options."""
         staged = read or default_scene(width, height)
         if light:
             staged = replace(staged, lights=lights_at(light, Canvas(width, height)))
-        if floor is not None:
-            staged = replace(staged, floor=Floor(floor))
+        if hinge is not None:
+            staged = replace(staged, floor=hinge)
         return staged if quality is None else replace(staged, quality=quality.value)
 
     with Pipeline(open_cache(), PipelineOptions(grids, solver.value)) as pipeline:
         job = _Job(pipeline, output, len(found) == 1, {})
         job.mask = None if mask is None else load_picture(mask)
         job.ink = None if ink is None else load_picture(ink)
-        failed: list[Frame] = []
         with progress_bar() as bar:
             task = bar.add_task("Lighting", total=len(found))
             for frame in found:
                 try:
                     picture = load_picture(frame.path)
                     job.light(frame, picture, stage(picture.shape[1], picture.shape[0]))
-                except OutputError:
-                    raise
+                    job.done.append(frame)
                 except LampblackError as error:
                     print_error(error, f"{frame.path.name}: ")
-                    failed.append(frame)
+                    job.failed.append(frame)
+                    if isinstance(error, OutputError):
+                        break  # no later frame could be written either
                 bar.advance(task)
     if sheet is not None:
-        _write_sheet(sheet, [frame for frame in found if frame not in failed], output)
-    _summarise(job, failed, len(found), output)
+        _write_sheet(sheet, job.done, output)
+    _summarise(job, len(found))
 
 
 @dataclass
@@ -126,6 +138,8 @@ class _Job:
     ink: NDArray[np.uint8] | None = None
     canvas: Canvas | None = None
     unlit: int = 0
+    done: list[Frame] = field(default_factory=list)
+    failed: list[Frame] = field(default_factory=list)
 
     def light(self, frame: Frame, picture: NDArray[np.uint8], scene: Scene) -> None:
         """Light one frame and write it; a drawing met before is only copied."""
@@ -201,11 +215,10 @@ def _write_sheet(path: Path, frames: list[Frame], output: Path) -> None:
     save_picture(path, contact_sheet([r[i : i + 6] for i in rows for r in (drawn, lit)]))
 
 
-def _summarise(job: _Job, failed: list[Frame], total: int, output: Path) -> None:
-    done = total - len(failed)
-    console.print(f"{done} of {total} frames are in {output}.", markup=False)
-    if failed:
-        names = ", ".join(frame.path.name for frame in failed)
+def _summarise(job: _Job, total: int) -> None:
+    console.print(f"{len(job.done)} of {total} frames are in {job.output}.", markup=False)
+    if job.failed:
+        names = ", ".join(frame.path.name for frame in job.failed)
         console.print(f"Failed: {names}", markup=False, style="bold red")
         raise typer.Exit(EXIT_FAILED)
     if job.unlit:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +17,7 @@ from rich.table import Table
 
 from ..atomic import atomic_file
 from ..drawing import find_frames, load_picture, save_picture
+from ..errors import DrawingError, LampblackWarning, NothingDrawnError
 from ..normals.predict import DEFAULT_GRIDS
 from ..pipeline import Pipeline, PipelineOptions
 from ..scene import Material, default_scene, encode_scene
@@ -28,6 +30,7 @@ from .options import (
     Solver,
     SolverOption,
     check_suffix,
+    keep_inputs,
     open_cache,
     read_drawing,
 )
@@ -50,6 +53,7 @@ def normals(
     Example: lampblack normals hero.png -o hero.normals.png
     """
     check_suffix(output, ".png", ".npy")
+    keep_inputs(output, [drawing, *filter(None, (mask, ink))])
     taken = read_drawing(drawing, mask, ink)
     with Pipeline(open_cache(), PipelineOptions(grids=grids)) as pipeline, progress_bar() as bar:
         task = bar.add_task("Predicting", total=100)
@@ -81,13 +85,17 @@ def mesh(
     check_suffix(output, ".glb", ".obj", ".ply")
     taken = read_drawing(drawing, mask, ink)
     options = PipelineOptions(grids, solver.value)
-    with Pipeline(open_cache(), options) as pipeline:
+    with Pipeline(open_cache(), options) as pipeline, progress_bar() as bar:
+        task = bar.add_task("Inflating", total=100)
+        pipeline.height(taken, lambda share: bar.update(task, completed=int(99 * share)))
         relief = pipeline.relief(taken, relief_scale=relief_scale, stride=stride)
     save_mesh(relief, output)
 
 
 def palette(
-    inputs: Annotated[list[str], typer.Argument(metavar="INPUT", help="PNG or folder.")],
+    inputs: Annotated[
+        list[str], typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
+    ],
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     mask: MaskOption = None,
     ink: InkOption = None,
@@ -108,7 +116,9 @@ def palette(
 
 
 def scene(
-    inputs: Annotated[list[str], typer.Argument(metavar="INPUT", help="PNG or folder.")],
+    inputs: Annotated[
+        list[str], typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
+    ],
     output: Annotated[Path, typer.Option("-o", "--output", help="A .json file.")],
     mask: MaskOption = None,
     ink: InkOption = None,
@@ -130,6 +140,16 @@ def _count_colours(inputs: list[str], mask: Path | None, ink: Path | None) -> li
     found = find_frames(inputs)
     with progress_bar() as bar:
         for frame in bar.track(found, description="Reading"):
-            drawing = read_drawing(frame.path, mask, ink)
+            try:
+                drawing = read_drawing(frame.path, mask, ink)
+            except NothingDrawnError as error:
+                if len(found) == 1:
+                    raise
+                warnings.warn(f"{frame.path.name}: {error.what}", LampblackWarning, stacklevel=2)
+                continue
+            except DrawingError as error:
+                raise DrawingError(
+                    f"{frame.path.name}: {error.what}", error.remedy, error.details
+                ) from error
             counts.update({swatch.colour: swatch.pixels for swatch in drawing.palette.swatches})
     return counts.most_common()

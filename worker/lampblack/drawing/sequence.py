@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import DrawingError
+from ..errors import DrawingError, LampblackWarning
 
 MAX_FRAMES = 100_000
 
@@ -81,6 +82,9 @@ def select_frames(frames: Sequence[Frame], numbers: Collection[int]) -> list[Fra
 
     Raises:
         DrawingError: none of them is there.
+
+    Warns:
+        LampblackWarning: some of them are not.
     """
     wanted = set(numbers)
     chosen = [frame for frame in frames if frame.number in wanted]
@@ -88,12 +92,21 @@ def select_frames(frames: Sequence[Frame], numbers: Collection[int]) -> list[Fra
         there = [frame.number for frame in frames if frame.number is not None]
         span = f"from {min(there)} to {max(there)}" if there else "without numbers"
         raise DrawingError("None of the frames asked for is there.", f"The frames are {span}.")
+    missing = sorted(wanted - {frame.number for frame in chosen})
+    if missing:
+        named = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
+        warnings.warn(
+            f"{len(missing)} of the frames asked for are not there: {named}.",
+            LampblackWarning,
+            stacklevel=2,
+        )
     return chosen
 
 
 def _frames_of(path: Path) -> list[Frame]:
     if path.is_dir():
-        return _numbered(_pictures_in(path), f"The folder {path} holds no PNG files.")
+        frames = [Frame(_number(file), file) for file in _pictures_in(path)]
+        return _in_order(frames, f"The folder {path} holds no PNG files.")
     pattern = _PATTERN.search(path.name)
     if pattern is not None and not path.exists():
         before, after = path.name[: pattern.start()], path.name[pattern.end() :]
@@ -101,8 +114,12 @@ def _frames_of(path: Path) -> list[Frame]:
         name = re.compile(re.escape(before) + rf"(\d{{{width},9}})" + re.escape(after))
         if not path.parent.is_dir():
             raise DrawingError(f"There is no folder {path.parent}.", "Check its name.")
-        matches = [file for file in _pictures_in(path.parent) if name.fullmatch(file.name)]
-        return _numbered(matches, f"No frames match {path}.")
+        matches = [
+            Frame(int(match[1]), file)
+            for file in _pictures_in(path.parent)
+            if (match := name.fullmatch(file.name))
+        ]
+        return _in_order(matches, f"No frames match {path}.")
     if not path.exists():
         raise DrawingError(f"There is no drawing at {path}.", "Check the name and the folder.")
     return [Frame(_number(path), path)]
@@ -121,10 +138,9 @@ def _pictures_in(folder: Path) -> list[Path]:
         ) from error
 
 
-def _numbered(paths: Sequence[Path], nothing: str) -> list[Frame]:
-    if not paths:
+def _in_order(frames: Sequence[Frame], nothing: str) -> list[Frame]:
+    if not frames:
         raise DrawingError(nothing, "Check the name, and that the drawings are PNG files.")
-    frames = [Frame(_number(path), path) for path in paths]
     return sorted(
         frames, key=lambda f: (f.number is None, f.number if f.number is not None else 0, f.path)
     )

@@ -49,8 +49,8 @@ def find_models(folder: Path, split: str | None = None) -> list[Path]:
     table = folder / "split.csv"
     if split is not None and table.is_file():
         with table.open(newline="") as lines:
-            rows = [row for row in csv.DictReader(lines) if row["split"] == split]
-        paths = [folder / row["source"] / f"{row['name']}.npz" for row in rows]
+            rows = [row for row in csv.DictReader(lines) if row.get("split") == split]
+        paths = [folder / str(row.get("source")) / f"{row.get('name')}.npz" for row in rows]
     else:
         paths = sorted(p for p in folder.rglob("*") if p.suffix.lower() in MODEL_SUFFIXES)
     if not paths:

@@ -19,9 +19,11 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import torch
+from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor
 
+from ..errors import LampblackError, OutputError
 from .card import NetworkCard, save_network, write_tensors
 from .models import find_models
 from .network import build_network, normal_loss
@@ -62,10 +64,15 @@ def train(
     """Train until the budget is spent; returns the EMA weights, ``output/network.safetensors``.
 
     Raises:
-        LampblackError: no models are found.
+        LampblackError: no models that can be drawn, or a run folder that cannot be used.
     """
     paths = find_models(models, "train")
-    output.mkdir(parents=True, exist_ok=True)
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"The run folder {output} cannot be made.", "Choose another.", str(error)
+        ) from error
     torch.manual_seed(options.seed)
     network = build_network(card).train()
     average = build_network(card)
@@ -87,7 +94,7 @@ def train(
     try:
         while progress.seconds < 60 * options.minutes:
             started = time.monotonic()
-            _refill(reservoir, views, options.batch)
+            _refill(reservoir, views, options.batch, painter.is_alive)
             tiles, truth = _batch(reservoir, options.batch, rng)
             done = progress.seconds / (60 * options.minutes)
             warm = min(1.0, (progress.step + 1) / 200)
@@ -160,7 +167,14 @@ class TrainingState:
         """Go on from the last checkpoint, if there is one."""
         if not self._tensors.exists():
             return Progress()
-        tensors = load_file(self._tensors)
+        try:
+            tensors = load_file(self._tensors)
+        except (OSError, SafetensorError) as error:
+            raise LampblackError(
+                f"The checkpoint {self._tensors} is damaged.",
+                "Remove it to begin anew.",
+                str(error),
+            ) from error
         for prefix, module in (("network.", self._network), ("average.", self._average)):
             module.load_state_dict(
                 {n.removeprefix(prefix): t for n, t in tensors.items() if n.startswith(prefix)}
@@ -189,13 +203,23 @@ def _update_average(average: torch.nn.Module, network: torch.nn.Module, keep: fl
             kept.lerp_(new, 1 - keep)
 
 
-def _refill(reservoir: list[View], views: Queue[View], batch: int) -> None:
-    """Take in fresh views in step with the tiles they are to give; wait only when empty."""
+def _refill(
+    reservoir: list[View], views: Queue[View], batch: int, painting: Callable[[], bool]
+) -> None:
+    """Take in fresh views in step with the tiles they are to give; wait only while there are
+    few, and only while they are being painted."""
     for _ in range(max(1, batch // TILES_PER_VIEW)):
-        try:
-            view = views.get(timeout=None if len(reservoir) < 32 else 0.001)
-        except queue.Empty:
-            return
+        while True:
+            try:
+                view = views.get(timeout=1.0 if len(reservoir) < 32 else 0.001)
+                break
+            except queue.Empty:
+                if len(reservoir) >= 32:
+                    return
+                if not painting():
+                    raise LampblackError(
+                        "No drawings come from the models.", "Check that the meshes can be read."
+                    ) from None
         reservoir.append(view)
         if len(reservoir) > RESERVOIR_VIEWS:
             reservoir.pop(0)
@@ -213,7 +237,12 @@ def _paint_views(
 ) -> None:
     """The painter process: it dies with its parent."""
     parent = os.getppid()
-    for view in random_views(models, seed, figure_px):
+    painted = random_views(models, seed, figure_px)
+    while True:
+        try:
+            view = next(painted)
+        except LampblackError:
+            return  # the trainer sees that no more comes, and says so
         while os.getppid() == parent:
             try:
                 views.put(view, timeout=2)

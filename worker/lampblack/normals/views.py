@@ -16,6 +16,8 @@ from .linework import Hand, draw_lines
 from .models import load_model
 from .tiles import ALIGNMENT, TILE, TileSource
 
+MAX_BARREN = 100
+
 
 @dataclass(frozen=True)
 class View:
@@ -55,14 +57,24 @@ class View:
 
 def random_views(models: list[Path], seed: int, figure_px: tuple[int, int]) -> Iterator[View]:
     """Views without end. Sources are drawn by the square root of their size, so that the many
-    soldiers of one game do not drown the few cartoon figures of another."""
+    soldiers of one game do not drown the few cartoon figures of another.
+
+    Raises:
+        LampblackError: one model after the other gives no view.
+    """
     rng = np.random.default_rng(seed)
     sources: dict[str, list[Path]] = defaultdict(list)
     for path in models:
         sources[path.parent.name].append(path)
     names = sorted(sources)
     shares = np.sqrt([len(sources[name]) for name in names])
+    barren = 0
     while True:
+        if barren == MAX_BARREN:
+            raise LampblackError(
+                f"{MAX_BARREN} models in a row gave nothing to draw.", "Check the models."
+            )
+        barren += 1
         name = names[rng.choice(len(names), p=shares / shares.sum())]
         path = sources[name][rng.integers(len(sources[name]))]
         try:
@@ -75,6 +87,7 @@ def random_views(models: list[Path], seed: int, figure_px: tuple[int, int]) -> I
         view = trace(model, view_rotation(azimuth, elevation, float(rng.normal(0, 6))), size)
         if view.mask.sum() < 0.02 * size * size:
             continue
+        barren = 0
         lines = draw_lines(view, Hand.random(rng, size), rng)
         yield View(
             lines=np.round(lines * 255).astype(np.uint8),
