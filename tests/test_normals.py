@@ -185,3 +185,22 @@ def test_shipped_network_rounds_a_ball() -> None:
     rim = mask & ~np.asarray(truth[..., 2] > 0.12)
     found = NormalPredictor().predict(rim.astype(np.float32), mask)
     assert angles(found, truth)[mask].mean() < 20
+
+
+def test_a_figure_cut_by_the_canvas_is_carried_on_and_a_touching_outline_is_not() -> None:
+    mask, _ = ball(420, 190.0)
+    rim = (mask & ~erode(mask)).astype(np.float32)
+    whole = NormalPredictor().predict(rim, mask)
+    cut = NormalPredictor().predict(rim[:, :210], mask[:, :210])
+    assert angles(cut, whole[:, :210])[mask[:, :210]].mean() < 15  # 30 when it is rounded off
+    tight, lines = mask[20:400, 20:400], rim[20:400, 20:400]
+    touching = NormalPredictor().predict(lines, tight)
+    assert angles(touching, whole[20:400, 20:400])[tight].mean() < 6
+
+
+def erode(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    inner = mask.copy()
+    for axis, shift in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        for reach in (1, 2, 3):
+            inner &= np.roll(mask, shift * reach, axis)
+    return inner

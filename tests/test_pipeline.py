@@ -29,8 +29,6 @@ def brightness(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
 
 def test_the_side_towards_the_light_is_brighter(pipeline: Pipeline) -> None:
     drawing = take_apart(draw_ball(160))
-    middle = drawing.mask.copy()
-    middle[:, :40] = middle[:, -40:] = False
     for x in (0, 160):
         lit = brightness(pipeline.render(drawing, lit_from(x, 80, 160)))
         left, right = lit[60:100, 40:60].mean(), lit[60:100, 100:120].mean()

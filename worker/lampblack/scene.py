@@ -56,7 +56,7 @@ class Ambient:
     """Light from everywhere; strength 1 alone shows an open surface in its drawn colour."""
 
     colour: Colour = "#ffffff"
-    strength: Strength = 0.35
+    strength: Strength = 0.3
     extra: Extra = field(default_factory=dict)
 
 
@@ -135,7 +135,7 @@ def default_light(canvas: Canvas, x: float, y: float, z: float | None = None) ->
         y=y,
         z=canvas.default_height if z is None else z,
         size=max(1.0, 0.4 * canvas.default_height),
-        power=1.5,
+        power=1.2,
     )
 
 

@@ -22,8 +22,8 @@ from .memory import peak_gib
 
 def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) -> dict[str, float]:
     """Wall seconds of one whole final frame (nothing cached, renderer warm), for the scene
-    without its floor and with one; with ``reference`` also the rmse (sRGB, 0 to 1, inside the
-    figure's drawn pixels) against 512 samples of every pixel.
+    without its floor and with one; with ``reference`` also the rmse (sRGB, 0 to 1, over
+    white, where either picture shows anything) against 512 samples of every pixel.
 
     Args:
         picture: (H, W, 4) uint8. scene: lights and materials; its quality is ignored.
@@ -41,7 +41,11 @@ def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) ->
             pipeline.render(drawing, staged)
             figures[f"seconds_relight_{name}"] = round(time.perf_counter() - begin, 2)
             if reference:
-                relief = pipeline.relief(drawing, stride=QUALITIES["final"].mesh_stride)
+                relief = pipeline.relief(
+                    drawing,
+                    relief_scale=staged.relief_scale,
+                    stride=QUALITIES["final"].mesh_stride,
+                )
                 request = replace(frame_request(drawing, relief, staged), quality=REFERENCE)
                 truth = composite(drawing, pipeline.child.render(request), staged)
                 figures[f"rmse_final_{name}"] = round(_rmse(result, truth), 5)
@@ -49,8 +53,8 @@ def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) ->
 
 
 def _rmse(a: NDArray[np.uint8], b: NDArray[np.uint8]) -> float:
-    """Over the pixels that either picture covers, premultiplied."""
-    one, other = (p[..., :3] * (p[..., 3:] / 255.0) / 255 for p in (a, b))
+    """Over the pixels that either picture covers, laid over white."""
+    one, other = (1 + (p[..., :3] / 255.0 - 1) * (p[..., 3:] / 255.0) for p in (a, b))
     covered = (a[..., 3] > 0) | (b[..., 3] > 0)
     return float(np.sqrt(np.square(one - other)[covered].mean()))
 

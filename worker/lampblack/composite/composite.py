@@ -78,10 +78,12 @@ def _composite_band(
     if paper.any():
         light, alpha = _lift_off_paper(light, alpha, kept, paper > 0)
     colour = light / np.maximum(alpha, 1e-6)
-    colour = np.where(alpha > 0, colour, pixels[..., :3])
-    rgba = np.concatenate([colour, alpha], axis=2)
-    rounded: NDArray[np.uint8] = np.rint(np.clip(rgba, 0, 1) * 255).astype(np.uint8)
-    return rounded
+    rgba = np.clip(np.concatenate([colour, alpha], axis=2), 0, 1)
+    rounded: NDArray[np.uint8] = np.rint(rgba * 255).astype(np.uint8)
+    # A colour nobody sees is left as the artist left it.
+    return np.where(
+        rounded[..., 3:] > 0, rounded, drawing.pixels * np.array([1, 1, 1, 0], np.uint8)
+    )
 
 
 def _lift_off_paper(

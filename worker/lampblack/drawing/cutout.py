@@ -140,12 +140,17 @@ def _stray(picture: Colours, paper: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _paper_of(picture: Colours) -> tuple[NDArray[np.uint8], float]:
-    """The colour most of the border wears, and how many levels its grain strays from it."""
+    """The lightest colour that much of the border wears, and how many levels its grain strays
+    from it."""
     border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]]).astype(
         np.int16
     )
     coarse = (border >> 5) @ np.array([64, 8, 1], np.int16)
-    common = np.bincount(coarse, minlength=512).argmax()
+    # Figures that reach over the border bring their ink there; paper is lighter than ink.
+    counts = np.bincount(coarse, minlength=512)
+    often = np.flatnonzero(counts >= max(0.15 * len(coarse), 1))
+    lightness = (often >> 6) + (often >> 3 & 7) + (often & 7)
+    common = often[lightness.argmax()] if len(often) else counts.argmax()
     paper = np.median(border[coarse == common], axis=0).astype(np.int16)
     stray = np.abs(border - paper).max(axis=1)
     near = stray[stray < 48]

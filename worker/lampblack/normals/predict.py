@@ -78,12 +78,13 @@ class NormalPredictor:
         # Everything is measured from the figure's own box, so that a figure that moves across
         # the canvas keeps its normals to the last bit.
         box = _bounding_box(mask)
-        figure_lines, figure_mask = lines[box], mask[box]
+        figure_lines, figure_mask, inner = _past_the_canvas(lines[box], mask[box], box, mask.shape)
         scale = self._scale(max(figure_mask.shape))
         small_lines, small_mask = _resize_figure(figure_lines, figure_mask, scale)
         vectors = self._average_grids(small_lines, small_mask, grids, progress)
         vectors = _extend_outside(_round_off(vectors), small_mask)
-        vectors = _resize(vectors, figure_mask.shape)
+        vectors = _resize(vectors, figure_mask.shape)[inner]
+        figure_mask = figure_mask[inner]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
         normals[box] = vectors * figure_mask[..., None]
@@ -145,6 +146,31 @@ def _round_off(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
 def _bounding_box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
+def _past_the_canvas(
+    lines: NDArray[np.float32],
+    mask: NDArray[np.bool_],
+    box: tuple[slice, slice],
+    canvas: tuple[int, ...],
+) -> tuple[NDArray[np.float32], NDArray[np.bool_], tuple[slice, slice]]:
+    """Carry a figure on where the canvas cuts it off: there it does not end, so it must not
+    be rounded off. An outline that merely touches the canvas's edge ends there.
+
+    Returns lines, mask and the place of the original in them.
+    """
+    reach = max(mask.shape) // 6
+    pads = [
+        (reach if side.start == 0 else 0, reach if side.stop == size else 0)
+        for side, size in zip(box, canvas, strict=True)
+    ]
+    inner = tuple(slice(p[0], p[0] + n) for p, n in zip(pads, mask.shape, strict=True))
+    place = inner[0], inner[1]
+    carried, drawn = np.pad(mask, pads, "edge"), np.pad(lines, pads, "edge")
+    carried &= drawn < 0.3
+    carried[place], drawn = mask, drawn * carried
+    drawn[place] = lines
+    return drawn.astype(np.float32), carried, place
 
 
 def _resize_figure(

@@ -20,6 +20,7 @@ from .quality import Sampling
 CAMERA_HEIGHT = 60.0
 FLOOR_REACH = 200.0
 FLOOR_ALBEDO = 0.6
+AMBIENT_SHEEN = 0.2  # all of a white surrounding, mirrored, would chalk every glossy colour
 ALBEDO_RANGE = 0.03, 0.9  # Cycles divides the light by the albedo, and white never darkens
 PASSES = (
     "diffuse_direct",
@@ -64,7 +65,7 @@ class Stage:
         self.scene.world = bpy.data.worlds.new("ambient")
         # Sampled by bounces alone: shadow rays would slip through the floor.
         self.scene.world.cycles.sampling_method = "NONE"
-        self._ambient = self.scene.world.node_tree.nodes["Background"].inputs
+        self._ambient = _ambient_strength(self.scene.world.node_tree)
 
     def set_surface(
         self,
@@ -123,8 +124,7 @@ class Stage:
     def set_source(self, light: AreaLight | None, canvas: Canvas) -> None:
         """Leave one source shining: a white area light of power 1, or the ambient light."""
         self._lamp.hide_render = light is None
-        self._ambient["Color"].default_value = (1, 1, 1, 1)
-        self._ambient["Strength"].default_value = float(light is None)
+        self._ambient.default_value = float(light is None)
         if light is not None:
             at = np.array([[light.x, light.y, light.z]], np.float32)
             self._lamp.location = _to_blender(at, canvas)[0]
@@ -190,6 +190,18 @@ def threads() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def _ambient_strength(tree: Any) -> Any:
+    """Make the world white, ``AMBIENT_SHEEN`` to glossy rays; the socket of its strength."""
+    background = tree.nodes["Background"].inputs
+    path, white = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMath")
+    white.operation = "MULTIPLY_ADD"
+    tree.links.new(path.outputs["Is Glossy Ray"], white.inputs[0])
+    white.inputs[1].default_value = AMBIENT_SHEEN - 1
+    white.inputs[2].default_value = 1
+    tree.links.new(white.outputs[0], background["Color"])
+    return background["Strength"]
 
 
 def _to_blender(points: Floats, canvas: Canvas) -> Floats:

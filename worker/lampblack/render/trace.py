@@ -17,7 +17,7 @@ from .wire import Trace
 Floats = NDArray[np.float32]
 
 FAINT = np.float32(0.05)
-UNSEEN = 0.004  # half a step of an 8-bit picture: paper far from the figure stays as it was
+UNSEEN = 0.01  # a change that only mottles: paper far from the figure stays as it was
 
 
 def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
