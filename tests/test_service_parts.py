@@ -89,7 +89,7 @@ def test_a_coarse_model_is_a_closed_dome_in_register(model: Model) -> None:
     x, y, z = relief.vertices[: len(relief.vertices) // 2].T
     assert abs(x.mean() - SIZE / 2) < 1
     assert abs(y.mean() - SIZE / 2) < 1
-    assert z[np.hypot(x - 80, y - 80) < 8].mean() == pytest.approx(64, rel=0.15)
+    assert z[np.hypot(x - 80, y - 80) < 8].mean() == pytest.approx(64, rel=0.3)
     left, top, width, height = model.box
     assert left < 17 < 143 < left + width
     assert top < 17 < 143 < top + height

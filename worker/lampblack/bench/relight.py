@@ -135,7 +135,8 @@ def _new_drawing(bench: _Bench) -> Figures:
 
 def _idle(bench: _Bench, pid: int) -> Figures:
     """What a converged worker costs."""
-    status, _ = bench.client.wait_for(Status)
+    bench.client.wait_for(Status)
+    status, _ = bench.client.wait_for(Status, where=lambda status: status.preview == "idle")
     before = processor_seconds(pid)
     until = time.monotonic() + IDLE_SECONDS
     while (left := until - time.monotonic()) > 0:

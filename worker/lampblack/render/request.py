@@ -63,8 +63,10 @@ class RenderRequest:
 
 
 def frame_request(drawing: Drawing, relief: Relief, scene: Scene) -> RenderRequest:
-    """Ask for all the light of ``scene`` on one frame."""
+    """Ask for all the light of ``scene`` on one frame, of the canvas's size or another."""
     row, column = standing_on(drawing.labels, relief.vertices)
+    width, height = drawing.size
+    whole = (scene.canvas.width, scene.canvas.height) == drawing.size
     return RenderRequest(
         surface=dress(
             relief, drawing.albedo[row, column], drawing.labels[row, column], drawing.palette, scene
@@ -72,6 +74,7 @@ def frame_request(drawing: Drawing, relief: Relief, scene: Scene) -> RenderReque
         canvas=scene.canvas,
         lights=scene.lights,
         floor=scene.floor,
+        rect=None if whole else (0.0, 0.0, float(width), float(height)),
         quality=QUALITIES[scene.quality],
     )
 

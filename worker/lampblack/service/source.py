@@ -40,6 +40,8 @@ LADDERS: dict[str, tuple[Rung, Rung]] = {
 """While nothing changes: low, then about medium, in pieces short enough to be left."""
 FIRST_AMBIENT = Rung(96, 4, 4)
 FIRST_FLOOR = Rung(64, 1, 1)
+FIRST_FLOOR_AMBIENT = Rung(64, 4, 4)
+"""What is traced once may take longer than what moves."""
 LOW, CONVERGED = 1, 2
 
 
