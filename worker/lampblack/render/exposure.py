@@ -41,7 +41,7 @@ class Exposure:
             self._gather(stage, job)
         if not job.develop:
             return ()
-        views = [{name: total / self.spp for name, total in sums.items()} for sums in self.views]
+        views = [_divided(sums, self.spp) for sums in self.views]
         if job.subject == "figure":
             return figure_light(views[0], denoiser, "fast")
         return floor_light(views[0], views[1], denoiser, "fast")
@@ -57,7 +57,7 @@ class Exposure:
             views = [render_passes(stage.scene)]
         else:
             views = [floor_passes(stage, subject) for subject in ("floor", "bare floor")]
-        weighted = [{name: seen * job.count for name, seen in view.items()} for view in views]
+        weighted = [_multiplied(view, job.count) for view in views]
         if self.views:
             for sums, more in zip(self.views, weighted, strict=True):
                 for name, total in sums.items():
@@ -65,6 +65,32 @@ class Exposure:
         else:
             self.views = weighted
         self.spp += job.count
+
+
+def _multiplied(view: dict[str, Floats], spp: int) -> dict[str, Floats]:
+    """Passes that can be added up: Cycles divides light by the colour that its samples met,
+    which on the outline is another for every few samples."""
+    return {
+        name: np.nan_to_num(seen) * spp * view.get(_colour_of(name), 1)
+        for name, seen in view.items()
+    }
+
+
+def _divided(sums: dict[str, Floats], spp: int) -> dict[str, Floats]:
+    """Added up passes, as Cycles would have given them for all ``spp`` samples at once."""
+    mean = {name: total / spp for name, total in sums.items()}
+    for name in mean:
+        colour = mean.get(_colour_of(name))
+        if colour is not None:
+            lit = np.divide(mean[name], colour, where=colour > 0, out=np.zeros_like(mean[name]))
+            mean[name] = lit
+    return mean
+
+
+def _colour_of(name: str) -> str:
+    """The pass by which light of a pass is divided; of no name for the others."""
+    kind, _, part = name.partition(" ")
+    return f"{kind} Color" if part in ("Direct", "Indirect") else ""
 
 
 def _setting(job: Expose) -> Expose:
