@@ -1,5 +1,5 @@
 # make demo: light the example animation. make test: check everything. Both install first.
-.PHONY: demo test check format install clean schema
+.PHONY: demo test test-slow check format install clean schema
 
 BIN := .venv/bin
 OUT ?= out/demo
@@ -12,7 +12,10 @@ demo: install
 	@echo "Contact sheet: $(abspath $(SHEET))"
 
 test: check
-	$(BIN)/pytest
+	$(BIN)/pytest -m "not slow"
+
+test-slow: install
+	$(BIN)/pytest -m slow
 
 check: install
 	$(BIN)/ruff check .
