@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import signal
+import sys
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from lampblack.cache import ArrayCache
+from lampblack.cli import main
 from lampblack.drawing import save_picture
 from lampblack.pipeline import Pipeline
 
@@ -45,3 +50,47 @@ def ball_png(tmp_path: Path) -> Path:
     path = tmp_path / "ball.png"
     save_picture(path, draw_ball())
     return path
+
+
+@dataclass(frozen=True)
+class Outcome:
+    code: int
+    out: str
+    err: str
+
+
+Run = Callable[..., Outcome]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Run:
+    """``lampblack ARGS...`` in this process."""
+
+    def call(*arguments: object) -> Outcome:
+        monkeypatch.setattr(sys, "argv", ["lampblack", *map(str, arguments)])
+        handler = signal.getsignal(signal.SIGTERM)
+        with warnings.catch_warnings(), pytest.raises(SystemExit) as stop:
+            main()
+        signal.signal(signal.SIGTERM, handler)
+        shown = capfd.readouterr()
+        assert "Traceback" not in shown.err + shown.out
+        return Outcome(int(stop.value.code or 0), shown.out, shown.err)
+
+    return call
+
+
+@pytest.fixture
+def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Stands in for the renderer where a test is about everything else."""
+    rendered: list[str] = []
+
+    def render(self: Pipeline, drawing: object, scene: object) -> object:
+        rendered.append("frame")
+        return drawing.pixels  # type: ignore[attr-defined]
+
+    monkeypatch.setattr(Pipeline, "render", render)
+    return rendered
+
+
+def files(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
