@@ -29,15 +29,19 @@ from lampblack.protocol import (
     NeedFrame,
     Preview,
     Progress,
+    ProtocolError,
     PutFrame,
     Render,
     SetScene,
     Status,
+    Welcome,
+    decode,
     encode,
     frame_digest,
 )
 from lampblack.scene import Scene, default_scene
 from lampblack.service.client import Client, Worker
+from lampblack.service.handlers import MAX_CLIENTS
 
 pytestmark = pytest.mark.cycles
 
@@ -239,6 +243,50 @@ def test_a_client_that_never_reads_harms_nobody(worker: Worker, client: Client) 
         client.picture(60, lambda image: image.converged)
         after, _ = client.wait_for(Status)
         assert after.memory_bytes - before.memory_bytes < 300 << 20
+
+
+def test_clients_that_vanish_leave_their_places_to_others(worker: Worker) -> None:
+    visit = "import sys, time; from lampblack.service.client import Client\n"
+    visit += "guest = Client(sys.argv[1]); guest.hello(); print(flush=True); time.sleep(60)"
+    for _ in range(MAX_CLIENTS + 1):
+        command = [sys.executable, "-c", visit, worker.endpoint()]
+        with subprocess.Popen(command, stdout=subprocess.PIPE) as guest:
+            assert guest.stdout is not None
+            assert guest.stdout.readline() == b"\n"
+            guest.kill()  # its socket open, without a goodbye
+    until = time.monotonic() + 10
+    while time.monotonic() < until:
+        with worker.connect() as late:
+            late.send(Hello(minor=0, client="late", client_version="1"))
+            if isinstance(late.wait_for(Message)[0], Welcome):
+                return
+        time.sleep(0.5)
+    pytest.fail("the places of dead clients were not given away")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="becoming another user needs root")
+def test_another_user_is_refused(worker: Worker) -> None:
+    path = worker.endpoint().removeprefix("ipc://")
+    knock = "import socket, sys; socket.socket(socket.AF_UNIX).connect(sys.argv[1])"
+    for user, met in ((None, 0), (65534, 1)):
+        tried = subprocess.run(
+            ["/usr/bin/env", "python3", "-c", knock, path], user=user, capture_output=True
+        )
+        assert tried.returncode == met
+        assert (b"PermissionError" in tried.stderr) == bool(met)
+    assert not worker.connection.stat().st_mode & 0o077
+
+
+def test_most_hostile_messages_get_past_json() -> None:
+    early = {"bad_json", "not_lampblack", "bad_frame_count", "header_too_large", "plane_too_large"}
+    past = 0
+    for frames in hostile(random.Random(7), 1000):
+        try:
+            decode(frames, "client")
+            past += 1
+        except ProtocolError as error:
+            past += error.code.value not in early
+    assert past > 500
 
 
 def hostile(chance: random.Random, count: int) -> Iterator[list[bytes]]:
