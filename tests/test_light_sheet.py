@@ -72,6 +72,24 @@ def test_agrees_with_the_composite(
     assert apart.mean() < 0.6
 
 
+@pytest.mark.parametrize("floor", [False, True])
+def test_clear_line_art_agrees_too(floor: bool) -> None:
+    rows, columns = np.mgrid[:SIZE, :SIZE] + 0.5 - SIZE / 2
+    line = np.clip(1.4 - np.abs(np.hypot(rows, columns) - 36), 0, 1)
+    picture = np.dstack([np.full((SIZE, SIZE, 3), 20), np.rint(255 * line)]).astype(np.uint8)
+    drawing, given = take_apart(picture), passes(floor)
+    assert drawing.coverage[48, 48] == 1
+    scene = default_scene(SIZE, SIZE)
+    dim = replace(scene.lights[0], power=0.4)
+    ambient = replace(scene.ambient, strength=0.0)
+    scene = replace(scene, lights=(dim,), ambient=ambient, floor=Floor(80.0) if floor else None)
+    dark = LightPasses(np.zeros((1, 1, 3), np.float32), np.zeros((1, 1, 3), np.float32))
+    wanted = premultiplied(composite(drawing, Passes((given,), dark), scene))
+    found = light_sheet(sheet_of(drawing), WHOLE, all_together(scene, given), scene)
+    assert wanted[48, 48, 3] > 10
+    assert np.abs(found.astype(int) - wanted).max() <= 4
+
+
 def test_a_crop_is_that_part_of_the_whole() -> None:
     drawing = take_apart(draw_ball(SIZE))
     scene = default_scene(SIZE, SIZE)

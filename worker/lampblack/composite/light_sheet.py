@@ -14,7 +14,7 @@ from scipy import ndimage
 from ..drawing.palette import Palette
 from ..scene import Scene, default_scene
 from .colour import linear, srgb
-from .composite import KNEE
+from .composite import KNEE, ROUNDING
 from .resample import Band, enlarge
 from .sheet import Box, Sheet
 
@@ -147,7 +147,9 @@ def _light(
         for column in range(ink.shape[1]):
             alpha = pixels[row, column, 3] * byte
             cover = coverage[row, column] * byte
-            behind = alpha - cover
+            # Line art on clear film is lit on white paper, which is taken away again below.
+            paper = cover - alpha if cover - alpha > np.float32(ROUNDING) else zero
+            behind = alpha + paper - cover
             across, down = on_ground[1] + column * on_ground[0], on_ground[3] + row * on_ground[2]
             shaded = (
                 has_floor
@@ -191,7 +193,7 @@ def _light(
                 drawn += line * (tone - drawn)
                 colour = _encode(to_srgb, fill[c] * scale)
                 colour += line * (tone - colour)
-                paint = pixels[row, column, c] * byte - cover * drawn
+                paint = pixels[row, column, c] * byte + paper - cover * drawn
                 if shaded:
                     ratio = _sample(floor, across, down, c)
                     plain = min(max(paint / max(behind, np.float32(1e-3)), zero), one)
@@ -205,6 +207,13 @@ def _light(
                     fill[c] += bare * (shown[c] - darkest)
                 ground_alpha += bare * (one - darkest)
             total = min(max(cover + ground_alpha, zero), one)
+            if paper > 0:
+                least = alpha
+                for c in range(3):
+                    least = max(least, total - fill[c])
+                for c in range(3):
+                    fill[c] += least - total
+                total = min(least, one)
             for c in range(3):
                 lit[row, column, c] = np.uint8(min(max(fill[c], zero), total) * 255 + 0.5)
             lit[row, column, 3] = np.uint8(total * 255 + 0.5)
