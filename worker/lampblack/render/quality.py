@@ -56,8 +56,8 @@ QUALITIES: dict[str, Quality] = {
     # not noise but steps in depth, where enlarged light leaks from one side to the other. For
     # the same reason neither adaptive sampling nor the slower denoiser earns its time.
     "final": Quality(
-        light=Sampling(1.0, 4096, 6),
-        ambient=Sampling(1.0, 4096, 9),
+        light=Sampling(1.0, 4096, 5),
+        ambient=Sampling(1.0, 4096, 7),
         floor=Sampling(0.25, 1024, 16),
         mesh_stride=1,
     ),
