@@ -40,13 +40,6 @@ struct Swatch
     qint64 pixels = 0;
 };
 
-/// A drawing, ready to be sent: straight RGBA8888 and its digest (SPEC 3.3).
-struct Drawing
-{
-    QImage pixels;     ///< Format_RGBA8888
-    QByteArray digest; ///< 40 lower-case hexadecimal digits
-};
-
 class Worker : public QObject
 {
     Q_OBJECT
@@ -70,14 +63,18 @@ public:
     virtual void start() = 0;
     virtual void stop() = 0;
 
-    /// Frame `frame` shows `drawing`. Kept here (shared by digest, bounded) and sent when asked for;
-    /// announced again by itself after a restart. `camera` takes canvas to view pixels.
-    virtual void putFrame(int frame, const Drawing& drawing, const QTransform& camera = {}) = 0;
+    /// Frame `frame` shows `pixels` (Format_RGBA8888). Returns at once: the digest is taken in another
+    /// thread, then the drawing is kept (shared by digest, bounded; see frameWanted()), sent when asked
+    /// for, and announced again by itself after a restart. `camera` takes canvas to view pixels.
+    virtual void putFrame(int frame, const QImage& pixels, const QTransform& camera = {}) = 0;
     virtual void dropFrame(int frame) = 0;
     virtual void dropAllFrames() = 0;
 
     /// Latest wins. Safe to call at any rate: what the worker cannot follow is passed over.
     virtual void setScene(const Scene& scene) = 0;
+
+    /// Whether a picture kept from before still shows its frame's drawing under the scene as it is.
+    virtual bool isCurrent(const LookImage& image) const = 0;
 
     /// What is in sight: `crop` in view pixels, wanted at `size` device pixels. Ended by stopLooking().
     virtual void look(int frame, Show show, const QRectF& crop, const QSize& size) = 0;
@@ -93,6 +90,8 @@ public:
 Q_SIGNALS:
     void stateChanged(lampblack::Worker::State state);
     void imageArrived(const lampblack::LookImage& image);
+    /// The drawing of `frame` is needed and was let go to save memory: export it and put it again.
+    void frameWanted(int frame);
     void paletteArrived(int frame, const QVector<lampblack::Swatch>& swatches);
     void framesLit(int lit, int held); ///< of the frames held, those lit under this scene
     void renderProgress(quint64 job, int frame, double share, int done, int total);
