@@ -9,8 +9,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pose as figure
 from lamplighter import draw_lamplighter
+from pencil2d import write_project
 from PIL import Image
 from pose import Foot, Pose
 
@@ -110,13 +112,17 @@ def main() -> None:
     frames = here / "animation"
     frames.mkdir(exist_ok=True)
     draw_still().save(here / "character.png", optimize=True)
-    for number, pose in enumerate(HOP, start=1):
-        draw_frame(pose).save(frames / f"lamplighter.{number:04d}.png", optimize=True)
+    hop = [draw_frame(pose) for pose in HOP]
+    for number, picture in enumerate(hop, start=1):
+        picture.save(frames / f"lamplighter.{number:04d}.png", optimize=True)
+    project = here / "lamplighter.pclx"
+    write_project(project, [np.asarray(p.convert("RGBA")) for p in hop], 2, 12, "Lamplighter")
     # The soles reach a little below the line on which the figure stands.
     still = light(STILL_SIZE, STILL_FLOOR[1] + 6)
     (here / "character.scene.json").write_bytes(encode_scene(still))
-    hop = replace(light(FRAME_SIZE, FRAME_FLOOR[1] + 4), quality="low")
-    (here / "animation.scene.json").write_bytes(encode_scene(hop))
+    moving = encode_scene(replace(light(FRAME_SIZE, FRAME_FLOOR[1] + 4), quality="low"))
+    (here / "animation.scene.json").write_bytes(moving)
+    (here / "lamplighter.pclx.lampblack.json").write_bytes(moving)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,260 @@
+// A second plugin for tests: tells over a local socket what stands where in the window.
+//
+// One JSON object a line in, one out. It looks and measures; the mouse and keys are the test's own,
+// sent through the X server as an artist's would be.
+#include "stalls.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QGenericPlugin>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QLabel>
+#include <QLocalServer>
+#include <QLocalSocket>
+#include <QMetaProperty>
+#include <QMouseEvent>
+#include <QTransform>
+#include <QWidget>
+
+#include <memory>
+
+namespace
+{
+
+QObject* named(const QString& name)
+{
+    for (QWidget* top : QApplication::topLevelWidgets())
+    {
+        if (top->objectName() == name)
+            return top;
+        if (auto* found = top->findChild<QObject*>(name))
+            return found;
+    }
+    return qApp->findChild<QObject*>(name);
+}
+
+/// The first widget, by window order, of a class, for what has no name.
+QWidget* ofClass(const QString& name)
+{
+    for (QWidget* widget : QApplication::allWidgets())
+        if (QLatin1String(widget->metaObject()->className()) == name && widget->isVisible())
+            return widget;
+    return nullptr;
+}
+
+QJsonValue told(const QVariant& value)
+{
+    if (value.canConvert<QTransform>() && value.userType() == qMetaTypeId<QTransform>())
+    {
+        const auto t = value.value<QTransform>();
+        return QJsonArray{t.m11(), t.m12(), t.m21(), t.m22(), t.dx(), t.dy()};
+    }
+    return QJsonValue::fromVariant(value);
+}
+
+QJsonObject describe(QObject* object)
+{
+    QJsonObject said{{QStringLiteral("class"), QLatin1String(object->metaObject()->className())}};
+    const auto* meta = object->metaObject();
+    QJsonObject properties;
+    for (int i = 0; i < meta->propertyCount(); ++i)
+    {
+        const QMetaProperty property = meta->property(i);
+        if (property.isReadable())
+            properties.insert(QLatin1String(property.name()), told(property.read(object)));
+    }
+    for (const QByteArray& name : object->dynamicPropertyNames())
+        properties.insert(QString::fromLatin1(name), told(object->property(name.constData())));
+    said.insert(QStringLiteral("properties"), properties);
+    if (auto* widget = qobject_cast<QWidget*>(object))
+    {
+        const QPoint corner = widget->mapToGlobal(QPoint(0, 0));
+        said.insert(QStringLiteral("rect"),
+                    QJsonArray{corner.x(), corner.y(), widget->width(), widget->height()});
+        said.insert(QStringLiteral("seen"), widget->isVisible() && !widget->visibleRegion().isEmpty());
+    }
+    return said;
+}
+
+/// From a mouse move on the canvas to the picture that follows it: needs the overlay's property
+/// "shownRevision" and the controller's "revision".
+class Latency : public QObject
+{
+public:
+    QJsonArray taken;
+
+    bool eventFilter(QObject* watched, QEvent* event) override
+    {
+        if (event->type() == QEvent::MouseMove && mCanvas && watched == mCanvas)
+        {
+            const auto* move = static_cast<QMouseEvent*>(event);
+            if ((move->buttons() & Qt::LeftButton) != 0)
+                QMetaObject::invokeMethod(
+                    this, [this] { moved(); }, Qt::QueuedConnection);
+        }
+        else if (event->type() == QEvent::Paint && mTool && mWaiting)
+            QMetaObject::invokeMethod(
+                this, [this] { painted(); }, Qt::QueuedConnection);
+        return false;
+    }
+
+    void watch(QWidget* canvas, QObject* tool)
+    {
+        mCanvas = canvas;
+        mTool = tool;
+        taken = {};
+        mWaiting = false;
+    }
+
+private:
+    void moved()
+    {
+        if (mWaiting || !mTool)
+            return;
+        mWanted = mTool->property("sentRevision").toULongLong();
+        mWaiting = true;
+        mSince.start();
+    }
+
+    void painted()
+    {
+        if (mTool->property("shownRevision").toULongLong() < mWanted)
+            return;
+        mWaiting = false;
+        taken.append(double(mSince.nsecsElapsed()) / 1e6);
+    }
+
+    QWidget* mCanvas = nullptr;
+    QObject* mTool = nullptr;
+    bool mWaiting = false;
+    quint64 mWanted = 0;
+    QElapsedTimer mSince;
+};
+
+class Probe : public QObject
+{
+public:
+    explicit Probe(const QString& name) : mStalls(this)
+    {
+        connect(&mServer, &QLocalServer::newConnection, this, &Probe::serve);
+        mServer.listen(name);
+    }
+
+private:
+    void serve()
+    {
+        QLocalSocket* socket = mServer.nextPendingConnection();
+        connect(socket, &QLocalSocket::readyRead, this,
+                [this, socket]
+                {
+                    while (socket->canReadLine())
+                    {
+                        const auto asked = QJsonDocument::fromJson(socket->readLine()).object();
+                        socket->write(QJsonDocument(answer(asked)).toJson(QJsonDocument::Compact) + '\n');
+                    }
+                });
+        connect(socket, &QLocalSocket::disconnected, socket, &QObject::deleteLater);
+    }
+
+    QJsonObject answer(const QJsonObject& asked)
+    {
+        const QString what = asked.value(QStringLiteral("do")).toString();
+        const QString name = asked.value(QStringLiteral("name")).toString();
+        if (what == QLatin1String("find"))
+        {
+            QObject* object = named(name);
+            return object ? describe(object) : QJsonObject();
+        }
+        if (what == QLatin1String("class"))
+        {
+            QWidget* widget = ofClass(name);
+            return widget ? describe(widget) : QJsonObject();
+        }
+        if (what == QLatin1String("names"))
+            return names(name);
+        if (what == QLatin1String("trigger"))
+        {
+            auto* action = qobject_cast<QAction*>(named(name));
+            // Queued: an action that opens a dialog would not come back.
+            if (action)
+                QMetaObject::invokeMethod(action, &QAction::trigger, Qt::QueuedConnection);
+            return {{QStringLiteral("done"), action != nullptr}};
+        }
+        if (what == QLatin1String("set"))
+        {
+            QObject* object = named(name);
+            const auto property = asked.value(QStringLiteral("property")).toString().toLatin1();
+            const QVariant value = asked.value(QStringLiteral("value")).toVariant();
+            return {{QStringLiteral("done"), object && object->setProperty(property.constData(), value)}};
+        }
+        if (what == QLatin1String("stalls"))
+        {
+            const QJsonObject report = mStalls.report();
+            mStalls.reset();
+            return report;
+        }
+        if (what == QLatin1String("latency"))
+        {
+            const QJsonArray taken = mLatency.taken;
+            mLatency.watch(ofClass(QStringLiteral("ScribbleArea")), named(name));
+            qApp->installEventFilter(&mLatency);
+            return {{QStringLiteral("milliseconds"), taken}};
+        }
+        if (what == QLatin1String("grab"))
+        {
+            auto* widget = qobject_cast<QWidget*>(named(name));
+            if (!widget)
+                widget = ofClass(name);
+            const QString path = asked.value(QStringLiteral("path")).toString();
+            return {{QStringLiteral("done"), widget && widget->grab().save(path)}};
+        }
+        return {{QStringLiteral("error"), QStringLiteral("what is \"%1\"?").arg(what)}};
+    }
+
+    /// Names that begin with `prefix`, and whether each is a visible widget.
+    static QJsonObject names(const QString& prefix)
+    {
+        QJsonObject found;
+        for (QWidget* top : QApplication::topLevelWidgets())
+            for (QObject* object : top->findChildren<QObject*>())
+                if (object->objectName().startsWith(prefix))
+                {
+                    const auto* widget = qobject_cast<QWidget*>(object);
+                    found.insert(object->objectName(), widget && widget->isVisible());
+                }
+        return found;
+    }
+
+    QLocalServer mServer;
+    Stalls mStalls;
+    Latency mLatency;
+};
+
+} // namespace
+
+class ProbePlugin : public QGenericPlugin
+{
+    Q_OBJECT
+    Q_PLUGIN_METADATA(IID QGenericPluginFactoryInterface_iid FILE "probe.json")
+
+public:
+    QObject* create(const QString& key, const QString&) override
+    {
+        const QString name = QString::fromLocal8Bit(qgetenv("LAMPBLACK_PROBE"));
+        if (key != QLatin1String("lampblackprobe") || name.isEmpty())
+            return nullptr;
+        // The application object is being made: wait until it and its window are there.
+        QMetaObject::invokeMethod(
+            qApp, [this, name] { mProbe = std::make_unique<Probe>(name); }, Qt::QueuedConnection);
+        return new QObject(qApp);
+    }
+
+private:
+    std::unique_ptr<QObject> mProbe;
+};
+
+#include "probe.moc"
