@@ -1,38 +1,75 @@
-# make demo: light the example animation. make test: check everything. Both install first.
-.PHONY: demo test test-slow check format install clean schema
+# make demo: light the example. make pencil2d [PROJECT=file.pclx]: open Pencil2D with the lamp tool.
+# make test: check everything. Each installs first what it needs.
+.PHONY: demo pencil2d install uninstall test test-slow check format tidy environment plugin schema clean
 
 BIN := .venv/bin
 OUT ?= out/demo
 SHEET ?= out/demo.png
+PROJECT ?=
+PYTHON_OF_WORKER := $(abspath $(BIN)/python)
 
-demo: install
+ifneq ($(DISPLAY)$(WAYLAND_DISPLAY),)
+# A copy, so that trying things out leaves the example as it is.
+demo: plugin
+	@mkdir -p out
+	@cp -n examples/lamplighter.pclx examples/lamplighter.pclx.lampblack.json out/
+	scripts/launch.sh $(abspath build/release/plugins) $(PYTHON_OF_WORKER) out/lamplighter.pclx
+else
+demo: environment
 	$(BIN)/lampblack render examples/animation -o $(OUT) --scene examples/animation.scene.json \
 	    --quality medium --contact-sheet $(SHEET)
 	@echo "Lit frames:    $(abspath $(OUT))"
 	@echo "Contact sheet: $(abspath $(SHEET))"
+endif
+
+pencil2d: plugin
+	scripts/launch.sh $(abspath build/release/plugins) $(PYTHON_OF_WORKER) $(PROJECT)
+
+install: plugin
+	scripts/desktop.sh install build/release $(PYTHON_OF_WORKER)
+
+uninstall:
+	scripts/desktop.sh uninstall
 
 test: check
+	@scripts/environment.sh test
+	cmake --preset dev && cmake --build --preset dev
+	ctest --preset dev
+	cmake --preset asan && cmake --build --preset asan --target protocol_tests
+	ctest --preset asan -L protocol
 	$(BIN)/pytest -m "not slow"
 
-test-slow: install
+test-slow: test
 	$(BIN)/pytest -m slow
 
-check: install
+CPP = $$(git ls-files 'pencil2d_plugin/*.h' 'pencil2d_plugin/*.cpp' 'tests/plugin/*.h' 'tests/plugin/*.cpp')
+
+check: environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run --Werror $(CPP)
 
-format: install
+format: environment
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(CPP)
 
-install:
-	@scripts/install.sh
+tidy:
+	cmake --preset dev
+	clang-tidy --quiet -p build/dev $$(git ls-files 'pencil2d_plugin/*.cpp')
+
+environment:
+	@scripts/environment.sh
+
+plugin:
+	@scripts/environment.sh plugin
+	@cmake --preset release >/dev/null && cmake --build --preset release
 
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache
 
-schema: install
+schema: environment
 	$(BIN)/python -c "import json; from lampblack.scene import scene_schema; \
 	    print(json.dumps(scene_schema(), indent=2))" > protocol/scene.schema.json
 	$(BIN)/python -m lampblack.protocol.documents protocol

@@ -1,10 +1,20 @@
 #!/bin/sh
-# Install what Lampblack needs and this machine lacks: Cycles' system libraries (Debian), and
-# a virtual environment in .venv. Run again at will: what is there is left alone.
+# Install what Lampblack needs and this machine lacks: system libraries (Debian), and a virtual
+# environment in .venv. Run again at will: what is there is left alone.
+#
+#   environment.sh            the worker and its command line
+#   environment.sh plugin     also Pencil2D and what builds the plugin
+#   environment.sh test       also a virtual display and what drives it
 set -eu
 cd "$(dirname "$0")/.."
 
-LIBRARIES="libgl1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxt6"
+PACKAGES="libgl1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxt6"
+PLUGIN="pencil2d cmake ninja-build g++ pkg-config qtbase5-dev libqt5svg5 cppzmq-dev libzmq3-dev libsodium-dev"
+TEST="xvfb openbox xdotool imagemagick fonts-dejavu-core"
+case "${1:-}" in
+    plugin) PACKAGES="$PACKAGES $PLUGIN" ;;
+    test) PACKAGES="$PACKAGES $PLUGIN $TEST" ;;
+esac
 PYTHON=${PYTHON:-$(command -v python3.11 || command -v python3 || true)}
 STAMP=.venv/installed
 
@@ -18,19 +28,16 @@ fail() {
 "$PYTHON" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' ||
     fail "$PYTHON is not Python 3.11, which Blender's module needs." "Name one: make PYTHON=/path/to/python3.11"
 
-wanted=$(cat pyproject.toml scripts/install.sh | cksum)
-[ -f "$STAMP" ] && [ "$(cat "$STAMP")" = "$wanted" ] && exit 0
-
 if command -v dpkg-query >/dev/null; then
     missing=""
-    for package in $LIBRARIES; do
+    for package in $PACKAGES; do
         dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
             missing="$missing $package"
     done
     if [ -n "$missing" ]; then
         as_root=""
         if [ "$(id -u)" != 0 ]; then
-            command -v sudo >/dev/null || fail "System libraries are missing." "As root: apt-get install$missing"
+            command -v sudo >/dev/null || fail "System packages are missing." "As root: apt-get install$missing"
             as_root=sudo
         fi
         # A list of packages may be old or not there yet: fetch it only when it is needed.
@@ -39,6 +46,8 @@ if command -v dpkg-query >/dev/null; then
     fi
 fi
 
+wanted=$(cat pyproject.toml scripts/environment.sh | cksum)
+[ -f "$STAMP" ] && [ "$(cat "$STAMP")" = "$wanted" ] && exit 0
 "$PYTHON" -m venv .venv ||
     fail "The virtual environment could not be made." "On Debian 12: apt-get install python3-venv"
 .venv/bin/pip install --disable-pip-version-check -e '.[dev]'
