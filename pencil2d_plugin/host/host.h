@@ -100,9 +100,10 @@ public:
     virtual bool isModified() const = 0;
     virtual bool openProject(const QString& path) = 0;
 
-    /// Ask for frames first..last with only the named layers (empty: all visible). They come by frameExported(), one or
-    /// a few each time the artist is idle: never while a button is down or the animation plays. A newer
-    /// request for a frame replaces the older one. exportFailed() tells what cannot be had.
+    /// Ask for frames first..last with only the named layers (empty: all visible). They come by
+    /// frameExported(), one or a few each time the artist is idle: never while a button is down or the
+    /// animation plays. A newer request for a frame replaces the older one. exportFailed() tells what cannot
+    /// be had.
     virtual void requestFrames(int first, int last, const QStringList& layers = {}) = 0;
     virtual void cancelRequests() = 0;
     virtual int pendingRequests() const = 0;

@@ -1,0 +1,172 @@
+#include "host/frame_queue.h"
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <QImageReader>
+
+namespace lampblack
+{
+
+namespace
+{
+
+constexpr int BreathMs = 10;   ///< between chunks, for the artist's events
+constexpr int RetryMs = 60;    ///< while the artist is busy
+constexpr double ChunkMs = 60; ///< what a chunk may hold the main thread
+constexpr int MaxChunk = 8;
+constexpr int MaxFrame = 9999;
+constexpr int MaxSide = 4096; ///< the dialog's own limit
+
+QImage readPng(const QString& path)
+{
+    QImageReader reader(path, "png");
+    const QSize size = reader.size();
+    if (!size.isValid() || size.width() > MaxSide || size.height() > MaxSide)
+        return {};
+    return reader.read().convertToFormat(QImage::Format_RGBA8888);
+}
+
+} // namespace
+
+FrameQueue::FrameQueue(const Parts& parts, Idleness* idleness, QObject* parent)
+    : QObject(parent), mParts(parts), mIdleness(idleness), mRows(parts), mDialog(parts),
+      mFolder(QDir::temp().filePath(QStringLiteral("lampblack-XXXXXX")))
+{
+    mReaders.setMaxThreadCount(1);
+    mTimer.setSingleShot(true);
+    connect(&mTimer, &QTimer::timeout, this, &FrameQueue::work);
+}
+
+FrameQueue::~FrameQueue()
+{
+    mReaders.clear();
+    mReaders.waitForDone();
+}
+
+void FrameQueue::request(int first, int last, const QStringList& layers)
+{
+    for (int frame = qMax(1, first); frame <= qMin(last, MaxFrame); ++frame)
+        mWanted.insert(frame, Wanted{layers, 0});
+    if (!mWanted.isEmpty() && !mTimer.isActive())
+        mTimer.start(0);
+}
+
+void FrameQueue::cancel()
+{
+    mWanted.clear();
+    mNewest.clear();
+    mTimer.stop();
+}
+
+void FrameQueue::work()
+{
+    if (mWanted.isEmpty())
+        return;
+    if (mPlaying || !mIdleness->isIdle())
+    {
+        mTimer.start(RetryMs);
+        return;
+    }
+    const int first = mWanted.contains(mCurrentFrame) ? mCurrentFrame : mWanted.firstKey();
+    const QStringList layers = mWanted.value(first).layers;
+    const int most = qBound(1, int(ChunkMs / mFrameMs), MaxChunk);
+    int last = first;
+    while (last - first + 1 < most && mWanted.contains(last + 1) && mWanted.value(last + 1).layers == layers)
+        ++last;
+    exportChunk(first, last, layers);
+    if (!mWanted.isEmpty())
+        mTimer.start(BreathMs);
+}
+
+void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
+{
+    const Idleness::Work work(mIdleness);
+    QElapsedTimer clock;
+    clock.start();
+
+    const QString folder = mFolder.filePath(QString::number(++mExports));
+    if (!mFolder.isValid() || !QDir().mkpath(folder))
+    {
+        fail(first, last, QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
+        return;
+    }
+
+    Exported exported;
+    {
+        QVector<int> hidden;
+        const UpdatesOff unseen(layers.isEmpty()
+                                    ? QVector<QWidget*>()
+                                    : QVector<QWidget*>{mParts.canvas, mParts.layerCells, mParts.trackCells});
+        if (!layers.isEmpty())
+        {
+            const QVector<bool> eyes = mRows.eyes(mLayers.size());
+            for (int row = 0; row < mLayers.size(); ++row)
+            {
+                const bool drawn =
+                    mLayers[row].kind != Layer::Kind::Camera && mLayers[row].kind != Layer::Kind::Sound;
+                if (drawn && eyes[row] && !layers.contains(mLayers[row].name))
+                    hidden.append(row);
+            }
+        }
+        for (const int row : qAsConst(hidden))
+            mRows.clickEye(row);
+        exported = mDialog.run(first, last, mCamera, folder);
+        for (const int row : qAsConst(hidden))
+            mRows.clickEye(row);
+    }
+    mFrameMs = double(clock.elapsed()) / (last - first + 1);
+
+    for (int frame = first; frame <= last; ++frame)
+    {
+        if (exported.files.contains(frame))
+        {
+            mWanted.remove(frame);
+            readLater(frame, exported.files.value(frame), mExports);
+        }
+        else
+            fail(frame, frame, exported.fault);
+    }
+    Q_EMIT looked(exported);
+}
+
+void FrameQueue::fail(int first, int last, const QString& details)
+{
+    constexpr int MaxAttempts = 3;
+    for (int frame = first; frame <= last; ++frame)
+    {
+        if (++mWanted[frame].attempts < MaxAttempts)
+            continue;
+        mWanted.remove(frame);
+        Q_EMIT failed(frame, {QStringLiteral("Frame %1 could not be read from Pencil2D.").arg(frame),
+                              QStringLiteral("Save the project, then try again."), details});
+    }
+}
+
+void FrameQueue::readLater(int frame, const QString& path, quint64 number)
+{
+    ++mReading;
+    mNewest.insert(frame, number);
+    mReaders.start(
+        [this, frame, path, number]
+        {
+            const QImage image = readPng(path);
+            QFile::remove(path);
+            QDir().rmdir(QFileInfo(path).path());
+            QMetaObject::invokeMethod(
+                this,
+                [this, frame, image, number]
+                {
+                    --mReading;
+                    if (mNewest.value(frame) != number)
+                        return;
+                    mNewest.remove(frame);
+                    if (image.isNull())
+                        fail(frame, frame, QStringLiteral("The exported PNG could not be read."));
+                    else
+                        Q_EMIT this->exported(frame, image);
+                },
+                Qt::QueuedConnection);
+        });
+}
+
+} // namespace lampblack

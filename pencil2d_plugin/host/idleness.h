@@ -1,0 +1,47 @@
+// Whether the artist's hands are off, so that work on Qt's main thread goes unnoticed.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+
+namespace lampblack
+{
+
+class Idleness : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit Idleness(QObject* parent);
+    ~Idleness() override;
+
+    /// No button or pen is down, no menu or dialog is open, nothing was typed just now, and none of our
+    /// own work is under way.
+    bool isIdle() const;
+
+    /// While it lives, we drive the program ourselves: nobody is idle and no release is the artist's.
+    class Work
+    {
+    public:
+        explicit Work(Idleness* idleness) : mIdleness(idleness) { ++mIdleness->mWork; }
+        ~Work() { --mIdleness->mWork; }
+        Q_DISABLE_COPY_MOVE(Work)
+
+    private:
+        Idleness* mIdleness;
+    };
+    bool isWorking() const { return mWork > 0; }
+
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+Q_SIGNALS:
+    void released(QObject* where); ///< a button or pen went up over this widget
+    void keyReleased(int key);
+
+private:
+    bool mPenDown = false;
+    int mWork = 0;
+    QElapsedTimer mSinceKey;
+};
+
+} // namespace lampblack

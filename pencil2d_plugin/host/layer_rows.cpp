@@ -1,0 +1,238 @@
+#include "host/layer_rows.h"
+
+#include "host/unseen_dialogs.h"
+
+#include <QApplication>
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QMouseEvent>
+#include <QScrollBar>
+
+#include <cmath>
+
+namespace lampblack
+{
+
+namespace
+{
+
+constexpr int RowHeight = 20; ///< of the header too
+constexpr int EyeX = 10;
+constexpr int NameX = 80;
+constexpr int IconX = 20;
+constexpr int IconSide = 20;
+constexpr int MaxRows = 500;
+const QPoint EyeCentre(EyeX, 8);
+
+/// Scrolls the list while it lives, then back to where the artist left it.
+class Scrolled
+{
+public:
+    Scrolled(QWidget* cells, int row) : mCells(cells)
+    {
+        QMetaObject::invokeMethod(cells, "vScrollChange", Qt::DirectConnection, Q_ARG(int, row));
+    }
+    ~Scrolled()
+    {
+        int offset = 0;
+        const auto bars = mCells->window()->findChildren<QScrollBar*>();
+        for (const QScrollBar* bar : bars)
+        {
+            if (bar->orientation() == Qt::Vertical &&
+                isClass(bar->parentWidget()->parentWidget(), "TimeLine"))
+                offset = bar->value();
+        }
+        QMetaObject::invokeMethod(mCells, "vScrollChange", Qt::DirectConnection, Q_ARG(int, offset));
+    }
+    Q_DISABLE_COPY_MOVE(Scrolled)
+
+private:
+    QWidget* mCells;
+};
+
+void sendMouse(QWidget* widget, QEvent::Type type, const QPoint& at, Qt::MouseButtons buttons)
+{
+    QMouseEvent event(type, at, widget->mapToGlobal(at), Qt::LeftButton, buttons, Qt::NoModifier);
+    QCoreApplication::sendEvent(widget, &event);
+}
+
+int difference(QRgb a, QRgb b)
+{
+    return std::abs(qRed(a) - qRed(b)) + std::abs(qGreen(a) - qGreen(b)) + std::abs(qBlue(a) - qBlue(b));
+}
+
+/// Mean difference between an icon and the place where it may be drawn, over its opaque pixels.
+double misfit(const QImage& picture, const QImage& icon, const QPoint& at)
+{
+    qint64 sum = 0;
+    qint64 count = 0;
+    for (int y = 0; y < icon.height(); ++y)
+    {
+        for (int x = 0; x < icon.width(); ++x)
+        {
+            const QPoint there = at + QPoint(x, y);
+            if (qAlpha(icon.pixel(x, y)) < 250 || !picture.valid(there))
+                continue;
+            sum += difference(icon.pixel(x, y), picture.pixel(there));
+            ++count;
+        }
+    }
+    return count == 0 ? 1000 : double(sum) / double(count);
+}
+
+} // namespace
+
+UpdatesOff::UpdatesOff(const QVector<QWidget*>& widgets)
+{
+    for (QWidget* widget : widgets)
+    {
+        if (widget == nullptr || !widget->updatesEnabled())
+            continue;
+        widget->setUpdatesEnabled(false);
+        mWidgets.append(widget);
+    }
+}
+
+UpdatesOff::~UpdatesOff()
+{
+    for (const auto& widget : qAsConst(mWidgets))
+    {
+        if (widget != nullptr)
+            widget->setUpdatesEnabled(true);
+    }
+}
+
+QImage LayerRows::picture(int row) const
+{
+    const Scrolled scrolled(mParts.layerCells, row);
+    QImage image(mParts.layerCells->width(), RowHeight, QImage::Format_RGB32);
+    image.fill(Qt::magenta);
+    mParts.layerCells->render(&image, QPoint(), QRegion(0, RowHeight, image.width(), RowHeight),
+                              QWidget::DrawWindowBackground);
+    return image;
+}
+
+void LayerRows::press(int row, int x) const
+{
+    const Scrolled scrolled(mParts.layerCells, row);
+    const QPoint at(x, RowHeight + RowHeight / 2);
+    // Always the pair: a lone release drops the layer that was last pressed onto this row.
+    sendMouse(mParts.layerCells, QEvent::MouseButtonPress, at, Qt::LeftButton);
+    sendMouse(mParts.layerCells, QEvent::MouseButtonRelease, at, Qt::NoButton);
+}
+
+void LayerRows::clickEye(int row) const
+{
+    press(row, EyeX);
+}
+
+void LayerRows::select(int row) const
+{
+    press(row, NameX);
+}
+
+int LayerRows::currentRow() const
+{
+    const QRgb highlight = QApplication::palette().color(QPalette::Highlight).rgb();
+    const QRgb base = QApplication::palette().color(QPalette::Base).rgb();
+    for (int row = 0; row < MaxRows; ++row)
+    {
+        const QRgb ground = picture(row).pixel(1, RowHeight / 2);
+        if (difference(ground, highlight) < difference(ground, base))
+            return row;
+    }
+    return -1;
+}
+
+QVector<bool> LayerRows::eyes(int count) const
+{
+    // Under "current layer only" every other eye is drawn shut; look while all layers are shown.
+    QAction* onlyCurrent = mParts.action("actionVisibilityCurrentLayerOnly");
+    QAction* all = mParts.action("actionVisibilityAll");
+    const bool switched = onlyCurrent != nullptr && all != nullptr && onlyCurrent->isChecked();
+    if (switched)
+        all->trigger();
+
+    const QRgb open = QApplication::palette().color(QPalette::Text).rgb();
+    const QRgb shut = QApplication::palette().color(QPalette::Base).rgb();
+    QVector<bool> eyes;
+    for (int row = 0; row < count; ++row)
+        eyes.append(difference(picture(row).pixel(EyeCentre), shut) > difference(open, shut) / 4);
+
+    if (switched)
+        onlyCurrent->trigger();
+    return eyes;
+}
+
+QString LayerRows::nameAt(int row, bool* isCamera) const
+{
+    QString name;
+    const UnseenDialogs unseen(
+        [&](QDialog* dialog)
+        {
+            if (const auto* input = qobject_cast<QInputDialog*>(dialog))
+                name = input->textValue();
+            else if (const auto* box = dialog->findChild<QLineEdit*>(QStringLiteral("nameBox")))
+            {
+                name = box->text();
+                *isCamera = true;
+            }
+        });
+    const Scrolled scrolled(mParts.layerCells, row);
+    sendMouse(mParts.layerCells, QEvent::MouseButtonDblClick, QPoint(NameX, RowHeight + RowHeight / 2),
+              Qt::LeftButton);
+    return name;
+}
+
+Layer::Kind LayerRows::kindOf(const QImage& picture) const
+{
+    static const std::array<std::pair<const char*, Layer::Kind>, 4> Icons{
+        {{":/icons/layer-bitmap.png", Layer::Kind::Bitmap},
+         {":/icons/layer-vector.png", Layer::Kind::Vector},
+         {":/icons/layer-sound.png", Layer::Kind::Sound},
+         {":/icons/layer-camera.png", Layer::Kind::Camera}}};
+    constexpr double Alike = 60;
+    double best = Alike;
+    Layer::Kind kind = Layer::Kind::Unknown;
+    for (const auto& [path, candidate] : Icons)
+    {
+        const QImage icon(QString::fromLatin1(path));
+        for (int shift = -3; shift <= 3; ++shift)
+        {
+            const double fit = misfit(picture, icon, QPoint(IconX, shift));
+            if (fit < best)
+            {
+                best = fit;
+                kind = candidate;
+            }
+        }
+    }
+    return kind;
+}
+
+QVector<Layer> LayerRows::read() const
+{
+    const UpdatesOff unseen({mParts.window});
+    const int current = currentRow();
+    if (current < 0)
+        return {};
+
+    QVector<Layer> layers;
+    for (int row = 0; row < MaxRows; ++row)
+    {
+        bool isCamera = false;
+        Layer layer;
+        layer.name = nameAt(row, &isCamera);
+        if (layer.name.isNull())
+            break;
+        layer.kind = isCamera ? Layer::Kind::Camera : kindOf(picture(row));
+        layers.append(layer);
+    }
+    select(current);
+    const QVector<bool> open = eyes(layers.size());
+    for (int row = 0; row < layers.size(); ++row)
+        layers[row].visible = open[row];
+    return layers;
+}
+
+} // namespace lampblack

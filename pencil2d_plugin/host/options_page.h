@@ -1,0 +1,27 @@
+// Our panel in the place of the tool options.
+#pragma once
+
+#include "host/parts.h"
+
+namespace lampblack
+{
+
+class OptionsPage : public QObject
+{
+    Q_OBJECT
+
+public:
+    OptionsPage(const Parts& parts, QObject* parent) : QObject(parent), mParts(parts) {}
+    ~OptionsPage() override;
+
+    void setPanel(QWidget* panel);
+    void show(bool panel);
+
+private:
+    Parts mParts;
+    QPointer<QWidget> mPage;
+    QVector<QPointer<QWidget>> mHidden; ///< the program's own, while ours is shown
+    bool mShown = false;
+};
+
+} // namespace lampblack

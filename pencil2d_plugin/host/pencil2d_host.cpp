@@ -1,0 +1,278 @@
+#include "host/pencil2d_host.h"
+
+#include <QMenu>
+#include <QStatusBar>
+
+namespace lampblack
+{
+
+namespace
+{
+
+constexpr int SurveyMs = 50;
+const QSize DefaultCanvas(800, 600);
+
+} // namespace
+
+Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
+    : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
+      mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr), mDrawing(parts, &mIdleness, nullptr),
+      mPalette(parts, nullptr), mOptions(parts, nullptr), mCanvasSize(DefaultCanvas)
+{
+    connect(&mPalette, &ToolPalette::activated, this,
+            [this](bool active)
+            {
+                mDrawing.setToolActive(active);
+                mOptions.show(active);
+                Q_EMIT toolActivated(active);
+            });
+    connect(&mTransport, &Transport::frameChanged, this,
+            [this](int frame)
+            {
+                mQueue.setCurrentFrame(frame);
+                Q_EMIT frameChanged(frame);
+            });
+    connect(&mTransport, &Transport::frameCountChanged, this, &Host::frameCountChanged);
+    connect(&mTransport, &Transport::playingChanged, this,
+            [this](bool playing)
+            {
+                mQueue.setPlaying(playing);
+                Q_EMIT playingChanged(playing);
+            });
+    connect(&mProject, &ProjectWatch::opened, this, &Pencil2DHost::onProjectOpened);
+    connect(&mProject, &ProjectWatch::saved, this, &Host::projectSaved);
+    connect(&mDrawing, &DrawingWatch::changed, this,
+            [this]
+            {
+                if (mOnCamera)
+                {
+                    mCameraKnown = false;
+                    mSurvey.start();
+                }
+                Q_EMIT drawingChanged(currentFrame());
+            });
+    connect(&mDrawing, &DrawingWatch::layersTouched, this, &Pencil2DHost::onLayersTouched);
+    connect(&mQueue, &FrameQueue::looked, this, &Pencil2DHost::onLooked);
+    connect(&mQueue, &FrameQueue::exported, this, &Pencil2DHost::onExported);
+    connect(&mQueue, &FrameQueue::failed, this, &Host::exportFailed);
+    if (has(parts.view, "viewChanged()"))
+        connect(parts.view, SIGNAL(viewChanged()), this, SIGNAL(viewChanged()));
+    if (has(parts.layers, "currentLayerChanged(int)"))
+        connect(parts.layers, SIGNAL(currentLayerChanged(int)), this, SLOT(onCurrentLayerChanged(int)));
+    if (has(parts.preferences, "optionChanged(SETTING)"))
+        connect(parts.preferences, SIGNAL(optionChanged(SETTING)), this, SLOT(forgetPaper()));
+
+    mQueue.setCurrentFrame(mTransport.currentFrame());
+    mSurvey.setSingleShot(true);
+    mSurvey.setInterval(SurveyMs);
+    connect(&mSurvey, &QTimer::timeout, this, &Pencil2DHost::survey);
+    mSurvey.start();
+}
+
+Pencil2DHost::~Pencil2DHost() = default;
+
+bool Pencil2DHost::can(Ability ability) const
+{
+    return whyNot(ability).isEmpty();
+}
+
+QString Pencil2DHost::whyNot(Ability ability) const
+{
+    const QString reason = lampblack::whyNot(mParts, ability);
+    if (!reason.isEmpty())
+        return reason;
+    if (ability == Ability::View && !mView.read())
+        return QStringLiteral("This version of Pencil2D does not show where its canvas lies.");
+    if (ability == Ability::Layers && !mLayersAnswer)
+        return QStringLiteral("The list of layers of this version of Pencil2D does not answer.");
+    return {};
+}
+
+void Pencil2DHost::addTool(QAction* tool)
+{
+    if (can(Ability::Palette))
+        mPalette.add(tool);
+}
+
+void Pencil2DHost::setToolPanel(QWidget* panel)
+{
+    if (can(Ability::Panel))
+        mOptions.setPanel(panel);
+}
+
+void Pencil2DHost::addDock(QDockWidget* dock)
+{
+    mParts.window->addDockWidget(Qt::RightDockWidgetArea, dock);
+    if (auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuWindows")))
+        menu->addAction(dock->toggleViewAction());
+}
+
+void Pencil2DHost::addAnimationAction(QAction* action)
+{
+    if (auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuAnimation")))
+        menu->addAction(action);
+    else
+        mParts.window->addAction(action);
+}
+
+void Pencil2DHost::showStatus(const QString& text, int milliseconds)
+{
+    mParts.window->statusBar()->showMessage(text, milliseconds);
+}
+
+std::optional<QTransform> Pencil2DHost::canvasToWidget() const
+{
+    const auto matrices = mView.read();
+    if (!matrices)
+        return std::nullopt;
+    const QTransform toOrigin =
+        QTransform::fromTranslate(-mCanvasSize.width() / 2.0, -mCanvasSize.height() / 2.0);
+    return toOrigin * matrices->widget;
+}
+
+QColor Pencil2DHost::paper() const
+{
+    if (mPaper.isValid() || mParts.background == nullptr)
+        return mPaper.isValid() ? mPaper : QColor(Qt::white);
+    constexpr int Side = 32;
+    QImage patch(Side, Side, QImage::Format_RGB32);
+    patch.fill(Qt::white);
+    // Its centre, clear of the shadow that runs along its edges.
+    const QPoint corner = mParts.background->rect().center() - QPoint(Side / 2, Side / 2);
+    mParts.background->render(&patch, QPoint(), QRegion(QRect(corner, patch.size())),
+                              QWidget::DrawWindowBackground);
+    mPaper = QColor(patch.scaled(1, 1, Qt::IgnoreAspectRatio, Qt::SmoothTransformation).pixel(0, 0));
+    return mPaper;
+}
+
+void Pencil2DHost::requestFrames(int first, int last, const QStringList& layers)
+{
+    if (can(Ability::Frames))
+    {
+        mQueue.request(first, last, layers);
+        return;
+    }
+    const UserError error{
+        QStringLiteral("Frames cannot be read from this version of Pencil2D."),
+        QStringLiteral("Use Pencil2D 0.6.6, or light the exported images on the command line."),
+        whyNot(Ability::Frames)};
+    for (int frame = first; frame <= last; ++frame)
+        Q_EMIT exportFailed(frame, error);
+}
+
+void Pencil2DHost::onCurrentLayerChanged(int index)
+{
+    if (mIdleness.isWorking())
+        return;
+    const int row = mLayers.size() - 1 - index;
+    const bool camera = row >= 0 && row < mLayers.size() && mLayers[row].kind == Layer::Kind::Camera;
+    if (mOnCamera && !camera)
+    {
+        mCameraKnown = false;
+        mSurvey.start();
+    }
+    mOnCamera = camera;
+    // Pencil2D looks through a camera while it is the current layer, and says nothing of it.
+    Q_EMIT viewChanged();
+}
+
+void Pencil2DHost::onProjectOpened(const QString& path)
+{
+    mQueue.cancel();
+    mLayersKnown = false;
+    mCameraKnown = false;
+    mSurvey.start();
+    Q_EMIT projectOpened(path);
+    Q_EMIT viewChanged();
+}
+
+void Pencil2DHost::onLayersTouched()
+{
+    mLayersKnown = false;
+    mSurvey.start();
+}
+
+void Pencil2DHost::onLooked(const Exported& exported)
+{
+    if (exported.cameras.isEmpty())
+        return;
+    if (mCameraName.isEmpty() || !exported.cameras.contains(mCameraName))
+        mCameraName = exported.cameras.first();
+    mQueue.setCamera(mCameraName);
+    mTransport.setFrameCount(exported.frameCount);
+    const QSize size = exported.sizes.value(exported.cameras.indexOf(mCameraName));
+    if (!size.isEmpty() && size != mCanvasSize)
+    {
+        mCanvasSize = size;
+        Q_EMIT viewChanged();
+    }
+}
+
+void Pencil2DHost::onExported(int frame, const QImage& image)
+{
+    Q_EMIT frameExported({frame, image, canvasToImage(cameraAt(mCamera, frame), image.size())});
+}
+
+void Pencil2DHost::survey()
+{
+    auto* selection = mParts.window->findChild<QMenu*>(QStringLiteral("menuSelection"));
+    const bool selecting = selection != nullptr && selection->isEnabled();
+    if (!mIdleness.isIdle() || isPlaying() || selecting)
+    {
+        mSurvey.start();
+        return;
+    }
+    {
+        const Idleness::Work work(&mIdleness);
+        if (lampblack::whyNot(mParts, Ability::Frames).isEmpty())
+            onLooked(ExportDialog(mParts).look());
+    }
+    if (!mLayersKnown && lampblack::whyNot(mParts, Ability::Layers).isEmpty())
+    {
+        const Idleness::Work work(&mIdleness);
+        const QVector<Layer> layers = mRows.read();
+        mLayersAnswer = !layers.isEmpty();
+        mLayersKnown = true;
+        mLayers = layers;
+        mQueue.setLayers(layers);
+        const int row = mRows.currentRow();
+        mOnCamera = row >= 0 && row < layers.size() && layers[row].kind == Layer::Kind::Camera;
+        Q_EMIT layersChanged();
+    }
+    if (!mCameraKnown)
+    {
+        for (int row = mLayers.size() - 1; row >= 0; --row)
+        {
+            if (mLayers[row].kind == Layer::Kind::Camera && mLayers[row].name == mCameraName)
+            {
+                surveyCamera(row);
+                break;
+            }
+        }
+        mCameraKnown = true;
+    }
+}
+
+void Pencil2DHost::surveyCamera(int row)
+{
+    const Idleness::Work work(&mIdleness);
+    const QSignalBlocker still(&mTransport);
+    const auto keys = readCamera(mParts, mRows, &mView, row, [this] { return mTransport.currentFrame(); });
+    mCamera = keys.value_or(CameraKeys());
+}
+
+Host* createHost(QObject* parent)
+{
+    QMainWindow* window = findMainWindow();
+    if (window == nullptr)
+        return nullptr;
+    const Parts parts = findParts(window);
+    if (parts.canvas == nullptr || parts.editor == nullptr)
+    {
+        qInfo("Lampblack: this is not a Pencil2D that it knows.");
+        return nullptr;
+    }
+    return new Pencil2DHost(parts, parent);
+}
+
+} // namespace lampblack

@@ -1,0 +1,88 @@
+// Pencil2D 0.6, stock, driven through its widgets, actions and moc's metadata.
+#pragma once
+
+#include "host/camera_path.h"
+#include "host/drawing_watch.h"
+#include "host/frame_queue.h"
+#include "host/options_page.h"
+#include "host/project_watch.h"
+#include "host/tool_palette.h"
+#include "host/transport.h"
+
+namespace lampblack
+{
+
+class Pencil2DHost : public Host
+{
+    Q_OBJECT
+
+public:
+    Pencil2DHost(const Parts& parts, QObject* parent);
+    ~Pencil2DHost() override;
+
+    bool can(Ability ability) const override;
+    QString whyNot(Ability ability) const override;
+
+    QWidget* window() const override { return mParts.window; }
+    QWidget* canvas() const override { return mParts.canvas; }
+    void addTool(QAction* tool) override;
+    void setToolPanel(QWidget* panel) override;
+    void addDock(QDockWidget* dock) override;
+    void addAnimationAction(QAction* action) override;
+    void showStatus(const QString& text, int milliseconds) override;
+
+    std::optional<QTransform> canvasToWidget() const override;
+    QSize canvasSize() const override { return mCanvasSize; }
+    QColor paper() const override;
+
+    int currentFrame() const override { return mTransport.currentFrame(); }
+    int frameCount() const override { return mTransport.frameCount(); }
+    double framesPerSecond() const override { return mTransport.framesPerSecond(); }
+    bool isPlaying() const override { return mTransport.isPlaying(); }
+
+    QVector<Layer> layers() const override { return mLayers; }
+
+    QString projectPath() const override { return mProject.path(); }
+    bool isModified() const override { return mProject.isModified(); }
+    bool openProject(const QString& path) override { return mProject.open(path); }
+
+    void requestFrames(int first, int last, const QStringList& layers) override;
+    void cancelRequests() override { mQueue.cancel(); }
+    int pendingRequests() const override { return mQueue.pending(); }
+
+private Q_SLOTS:
+    void onCurrentLayerChanged(int index);
+    void forgetPaper() { mPaper = QColor(); }
+
+private:
+    void survey();
+    void surveyCamera(int row);
+    void onLooked(const Exported& exported);
+    void onExported(int frame, const QImage& image);
+    void onProjectOpened(const QString& path);
+    void onLayersTouched();
+
+    Parts mParts;
+    Idleness mIdleness;
+    Transport mTransport;
+    ProjectWatch mProject;
+    LayerRows mRows;
+    mutable ViewReader mView;
+    FrameQueue mQueue;
+    DrawingWatch mDrawing;
+    ToolPalette mPalette;
+    OptionsPage mOptions;
+    QTimer mSurvey;
+
+    QVector<Layer> mLayers;
+    CameraKeys mCamera;
+    QString mCameraName;
+    QSize mCanvasSize;
+    mutable QColor mPaper;
+    bool mLayersKnown = false;
+    bool mCameraKnown = false;
+    bool mOnCamera = false; ///< the current layer is a camera
+    bool mLayersAnswer = true;
+};
+
+} // namespace lampblack

@@ -1,0 +1,73 @@
+#include "host/transport.h"
+
+#include <QLabel>
+#include <QRegularExpression>
+#include <QSpinBox>
+
+namespace lampblack
+{
+
+int frameOf(const QString& label)
+{
+    static const QRegularExpression frame(QStringLiteral("(?:^|\\|\\s*)(\\d{1,5})\\s*$"));
+    const QRegularExpressionMatch match = frame.match(label);
+    return match.hasMatch() ? match.captured(1).toInt() : 0;
+}
+
+Transport::Transport(const Parts& parts, QObject* parent) : QObject(parent), mParts(parts)
+{
+    // The other side is known to moc only, hence by string.
+    if (has(parts.editor, "scrubbed(int)"))
+        connect(parts.editor, SIGNAL(scrubbed(int)), this, SLOT(onScrubbed(int)));
+    if (has(parts.layers, "animationLengthChanged(int)"))
+        connect(parts.layers, SIGNAL(animationLengthChanged(int)), this, SLOT(onLengthChanged(int)));
+    if (has(parts.playback, "playStateChanged(bool)"))
+        connect(parts.playback, SIGNAL(playStateChanged(bool)), this, SLOT(onPlayState(bool)));
+    if (parts.timeControls == nullptr)
+        return;
+    const auto labels = parts.timeControls->findChildren<QLabel*>();
+    for (const QLabel* label : labels)
+    {
+        if (const int frame = frameOf(label->text()); frame > 0)
+            mFrame = frame;
+    }
+}
+
+double Transport::framesPerSecond() const
+{
+    constexpr double Default = 12;
+    // The first spin box of the controls; the others are the loop's ends.
+    const auto* box = mParts.timeControls == nullptr ? nullptr : mParts.timeControls->findChild<QSpinBox*>();
+    return box == nullptr ? Default : box->value();
+}
+
+void Transport::setFrameCount(int count)
+{
+    if (count < 1 || count == mCount)
+        return;
+    mCount = count;
+    Q_EMIT frameCountChanged(count);
+}
+
+void Transport::onScrubbed(int frame)
+{
+    if (frame == mFrame)
+        return;
+    mFrame = frame;
+    Q_EMIT frameChanged(frame);
+}
+
+void Transport::onLengthChanged(int length)
+{
+    setFrameCount(length);
+}
+
+void Transport::onPlayState(bool playing)
+{
+    if (playing == mPlaying)
+        return;
+    mPlaying = playing;
+    Q_EMIT playingChanged(playing);
+}
+
+} // namespace lampblack

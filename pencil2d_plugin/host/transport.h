@@ -1,0 +1,43 @@
+// Where the animation stands, how long it is and how fast it plays.
+#pragma once
+
+#include "host/parts.h"
+
+namespace lampblack
+{
+
+/// The frame that a time label shows ("0012", "00:01:00 | 0012"); 0 if it shows none.
+int frameOf(const QString& label);
+
+class Transport : public QObject
+{
+    Q_OBJECT
+
+public:
+    Transport(const Parts& parts, QObject* parent);
+
+    int currentFrame() const { return mFrame; }
+    int frameCount() const { return mCount; }
+    double framesPerSecond() const;
+    bool isPlaying() const { return mPlaying; }
+
+    void setFrameCount(int count);
+
+Q_SIGNALS:
+    void frameChanged(int frame);
+    void frameCountChanged(int count);
+    void playingChanged(bool playing);
+
+private Q_SLOTS:
+    void onScrubbed(int frame);
+    void onLengthChanged(int length);
+    void onPlayState(bool playing);
+
+private:
+    Parts mParts;
+    int mFrame = 1;
+    int mCount = 1;
+    bool mPlaying = false;
+};
+
+} // namespace lampblack

@@ -1,0 +1,65 @@
+#include "host/unseen_dialogs.h"
+
+#include <QCoreApplication>
+#include <QEvent>
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QProgressDialog>
+#include <QTimer>
+
+namespace lampblack
+{
+
+UnseenDialogs::UnseenDialogs(Answer answer) : mAnswer(std::move(answer))
+{
+    mNativeDialogs = !QCoreApplication::testAttribute(Qt::AA_DontUseNativeDialogs);
+    QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs, true);
+    QCoreApplication::instance()->installEventFilter(this);
+}
+
+UnseenDialogs::~UnseenDialogs()
+{
+    QCoreApplication::instance()->removeEventFilter(this);
+    QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs, !mNativeDialogs);
+}
+
+bool UnseenDialogs::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() != QEvent::Polish && event->type() != QEvent::Show)
+        return false;
+    auto* dialog = qobject_cast<QDialog*>(watched);
+    if (dialog == nullptr)
+        return false;
+
+    dialog->setAttribute(Qt::WA_DontShowOnScreen);
+    if (event->type() == QEvent::Polish)
+    {
+        // A modal dialog, seen or not, would swallow the strokes drawn meanwhile.
+        if (qobject_cast<QFileDialog*>(dialog) == nullptr)
+            dialog->setWindowModality(Qt::NonModal);
+        return false;
+    }
+    // Answered later: inside Show, exec() has not begun to wait yet and would wait for ever.
+    QTimer::singleShot(0, dialog,
+                       [self = QPointer<UnseenDialogs>(this), dialog]
+                       {
+                           if (self != nullptr)
+                               self->answerTo(dialog);
+                       });
+    return false;
+}
+
+void UnseenDialogs::answerTo(QDialog* dialog)
+{
+    if (qobject_cast<QProgressDialog*>(dialog) != nullptr)
+        return;
+    const QPointer<QDialog> guard(dialog);
+    if (auto* box = qobject_cast<QMessageBox*>(dialog))
+        mComplaints.append(box->text());
+    else
+        mAnswer(dialog);
+    if (guard != nullptr && guard->isVisible())
+        guard->reject();
+}
+
+} // namespace lampblack
