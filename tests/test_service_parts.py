@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from conftest import draw_ball
+from lampblack.camera import IDENTITY, scene_in_view
 from lampblack.composite.sheet import premultiplied
 from lampblack.errors import LampblackWarning
 from lampblack.protocol import frame_digest
@@ -18,7 +19,7 @@ from lampblack.service.bounded import BoundedStore
 from lampblack.service.model import Model, coarse_model
 from lampblack.service.noticed import listen, noticed_warnings
 from lampblack.service.outbox import MAX_WAITING, Outbox
-from lampblack.service.snapshot import IDENTITY, Look, Snapshot, scene_in_view
+from lampblack.service.snapshot import Look, Snapshot
 from lampblack.service.source import sources_of
 from lampblack.service.studio import Developed, LightStore
 from lampblack.surface import check_relief

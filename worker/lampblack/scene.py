@@ -20,6 +20,8 @@ from .errors import SceneError
 
 VERSION = 1
 MAX_LIGHTS = 4
+MAX_KEYS = 128
+"""Of a light or a floor: so many of each fit into one message."""
 MAX_JSON_BYTES = 1 << 20
 
 Colour = Annotated[
@@ -30,7 +32,24 @@ Colour = Annotated[
 Pixels = Annotated[float, Meta(ge=-1e5, le=1e5, description="canvas pixels")]
 Unit = Annotated[float, Meta(ge=0, le=1)]
 Strength = Annotated[float, Meta(ge=0, le=100)]
+Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
+Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
+KeyFrame = Annotated[int, Meta(ge=0, le=999_999, description="frame of the animation")]
 Extra = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class LightKey:
+    """What a light is like at one frame; see ``AreaLight.keys``."""
+
+    frame: KeyFrame
+    x: Pixels
+    y: Pixels
+    z: Pixels
+    size: Diameter = 200.0
+    colour: Colour = "#ffffff"
+    power: Strength = 1.0
+    extra: Extra = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -40,14 +59,19 @@ class AreaLight:
     ``power`` 1 lights a white surface that faces it from the default height (half the
     canvas's long side) to exactly the drawn colour; light falls off with the square of the
     distance. ``z`` below 0 stands behind the paper.
+
+    With ``keys``, in any order, it changes evenly from each to the next (its colour in linear
+    light), and holds before the first and after the last; its own values then count for
+    nothing. Of keys at one frame the last counts. See ``timeline.py``.
     """
 
     x: Pixels
     y: Pixels
     z: Pixels
-    size: Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")] = 200.0
+    size: Diameter = 200.0
     colour: Colour = "#ffffff"
     power: Strength = 1.0
+    keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS)] = ()
     extra: Extra = field(default_factory=dict)
 
 
@@ -76,15 +100,27 @@ class Material:
 
 
 @dataclass(frozen=True)
+class FloorKey:
+    """How a floor lies at one frame; see ``Floor.keys``."""
+
+    frame: KeyFrame
+    y: Pixels
+    pitch: Pitch = 25.0
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Floor:
     """A shadow-catching plane hinged at the canvas line ``y``, z = 0.
 
     A horizontal floor is edge-on to the orthographic view, so the floor is pitched towards
-    the viewer: ``pitch`` degrees, 0 edge-on, 90 a wall facing the viewer.
+    the viewer: ``pitch`` degrees, 0 edge-on, 90 a wall facing the viewer. ``keys`` move it as
+    those of a light do.
     """
 
     y: Pixels
-    pitch: Annotated[float, Meta(ge=5, le=85, description="degrees")] = 25.0
+    pitch: Pitch = 25.0
+    keys: Annotated[tuple[FloorKey, ...], Meta(max_length=MAX_KEYS)] = ()
     extra: Extra = field(default_factory=dict)
 
 
@@ -224,9 +260,12 @@ _type_hints = functools.cache(get_type_hints)
 
 
 def _to_builtins(value: Any) -> Any:
-    """Plain containers for JSON, with every ``extra`` spread back into its object."""
+    """Plain containers for JSON, with every ``extra`` spread back into its object. Keys are left
+    out where there are none."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {f.name: _to_builtins(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        if not fields.get("keys", True):
+            del fields["keys"]
         return {**fields.pop("extra"), **fields}
     if isinstance(value, tuple | list):
         return [_to_builtins(item) for item in value]

@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..camera import IDENTITY
 from ..protocol import frame_digest
 from ..render import RenderChild
 from ..scene import Scene
 from ..service.model import coarse_model
-from ..service.snapshot import IDENTITY, Look, Snapshot
+from ..service.snapshot import Look, Snapshot
 from ..service.source import LADDERS, MOVING, Source, sources_of
 
 RENDERS = 15

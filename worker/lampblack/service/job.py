@@ -8,16 +8,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ..camera import scene_in_view
 from ..drawing import load_picture, save_picture
 from ..errors import LampblackError, NothingDrawnError, OutputError, RenderError
 from ..pipeline import Pipeline
 from ..protocol import Done, ErrorCode, FrameDone, Progress, error_message
 from ..render import RenderChild
 from ..scene import Scene
+from ..timeline import scene_at
 from .model import Planes, take_planes_apart
 from .noticed import noticed_warnings
 from .session import Shown
-from .snapshot import scene_in_view
 from .studio import Studio
 
 NICENESS = 10
@@ -188,7 +189,7 @@ class Jobs:
 
     def _light(self, job: Job, frame: int, shown: Shown, planes: Planes, target: Path) -> None:
         drawing = take_planes_apart(planes)
-        scene = scene_in_view(job.scene, shown.camera, drawing.size)
+        scene = scene_in_view(scene_at(job.scene, frame), shown.camera, drawing.size)
         self.pipeline.height(drawing, lambda share: self._progress(job, frame, 0.3 * share))
         for attempt in range(ATTEMPTS):
             self._progress(job, frame, 0.3)

@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ..camera import scene_in_view
 from ..composite.light_sheet import Light, add_up, light_sheet, warm_up
 from ..composite.shadow import FAINT
 from ..composite.sheet import Sheet, cut_picture
 from ..protocol import Crop, ErrorCode, Image, error_message
 from .bounded import BoundedStore
 from .model import Model
-from .snapshot import Snapshot, scene_in_view
+from .snapshot import Snapshot
 from .source import CONVERGED, Source, figure_area, sources_of
 from .studio import MIB, Developed, Studio
 

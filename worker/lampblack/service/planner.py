@@ -106,8 +106,8 @@ class Planner:
             if model is not None and all(
                 self.studio.lights.rung(source) >= LOW for source in sources_of(seen, model)
             ):
-                lit.add(seen.digest)
-        return sum(shown.digest in lit for shown in session.frames.values())
+                lit.add(session.sight(seen.look.frame))
+        return sum(session.sight(frame) in lit for frame in session.frames)
 
     def _nearest(self, session: Session) -> list[Snapshot]:
         """Frames ahead, as many as there is room for; those not held are asked for."""

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field, replace
 
+from ..camera import Affine
 from ..protocol import ErrorCode, error_message
 from ..protocol.fields import Message
 from ..scene import Scene
+from ..timeline import is_keyed, scene_at
 from .outbox import Outbox
-from .snapshot import Affine, Look, Snapshot
+from .snapshot import Look, Snapshot
 
 
 @dataclass(frozen=True)
@@ -50,22 +52,28 @@ class Session:
         return None if self.look is None else self._snapshot_of(self.look)
 
     def ahead(self) -> Iterator[Snapshot]:
-        """What may be looked at next: the other frames, nearest first, each drawing once."""
+        """What may be looked at next: the other frames, nearest first, each sight once."""
         look = self.look
         if look is None or self.scene is None or look.frame not in self.frames:
             return
-        seen = {self.frames[look.frame].digest}
+        seen = {self.sight(look.frame)}
         for frame in sorted(self.frames, key=lambda number: (abs(number - look.frame), number)):
             snapshot = self._snapshot_of(replace(look, frame=frame, show="lit"))
-            if snapshot is not None and snapshot.digest not in seen:
-                seen.add(snapshot.digest)
+            if snapshot is not None and self.sight(frame) not in seen:
+                seen.add(self.sight(frame))
                 yield snapshot
+
+    def sight(self, frame: int) -> Hashable:
+        """The same for frames that look alike: by their drawing, unless the light is keyed."""
+        digest = self.frames[frame].digest
+        return (digest, frame) if self.scene is not None and is_keyed(self.scene) else digest
 
     def _snapshot_of(self, look: Look) -> Snapshot | None:
         shown = self.frames.get(look.frame)
         if shown is None:
             return None
-        return Snapshot(self.name, look, shown.digest, shown.camera, self.revision, self.scene)
+        scene = None if self.scene is None else scene_at(self.scene, look.frame)
+        return Snapshot(self.name, look, shown.digest, shown.camera, self.revision, scene)
 
     def frame_showing(self, digest: str) -> int | None:
         """A frame that shows the drawing, the one that is looked at before others."""

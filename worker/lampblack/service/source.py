@@ -9,12 +9,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..camera import scene_in_view
 from ..composite.colour import hex_linear
 from ..composite.sheet import Box
 from ..render import Expose
 from ..scene import AreaLight, Canvas, Floor
 from .model import Model
-from .snapshot import Snapshot, scene_in_view
+from .snapshot import Snapshot
 
 Floats = NDArray[np.float32]
 

@@ -1,0 +1,100 @@
+"""Cameras: from the canvas, where the scene lives, to the picture that a frame shows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from .scene import AreaLight, Canvas, Scene
+
+Affine = tuple[float, float, float, float, float, float]
+"""[a, b, c, d, e, f]: x' = a x + b y + c, y' = d x + e y + f, both in pixels, x right, y down."""
+IDENTITY: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+
+Sample = TypeVar("Sample", np.uint8, np.float32)
+
+
+def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
+    """``scene`` in the pixels of a drawing of ``size`` (width, height), through its camera."""
+    if camera == IDENTITY:
+        return replace(scene, canvas=Canvas(*size))
+    a, b, c, d, e, f = camera
+    scale = math.sqrt(abs(a * e - b * d))
+    width, height = (
+        min(65536, max(1, round(side * scale)))
+        for side in (scene.canvas.width, scene.canvas.height)
+    )
+    canvas = Canvas(width, height)
+
+    def seen(light: AreaLight) -> AreaLight:
+        return replace(
+            light,
+            x=a * light.x + b * light.y + c,
+            y=d * light.x + e * light.y + f,
+            z=light.z * scale,
+            size=max(1.0, light.size * scale),
+        )
+
+    floor = scene.floor
+    if floor is not None:
+        floor = replace(floor, y=d * scene.canvas.width / 2 + e * floor.y + f)
+    lights = tuple(seen(light) for light in scene.lights)
+    return replace(scene, canvas=canvas, lights=lights, floor=floor)
+
+
+def is_shift(camera: Affine) -> bool:
+    """Whether ``camera`` only moves pictures."""
+    a, b, _, d, e, _ = camera
+    return (a, b, d, e) == (1.0, 0.0, 0.0, 1.0)
+
+
+def look_through(
+    picture: NDArray[Sample], camera: Affine, size: tuple[int, int]
+) -> NDArray[Sample]:
+    """What ``camera`` shows of a picture, at ``size`` (width, height); empty past its edges.
+
+    Bilinear, but a camera that only moves does so by whole pixels, as Pencil2D's does.
+
+    Args:
+        picture: (H, W, C), its colours premultiplied where it has alpha.
+        camera: the picture's pixels to those of the result.
+    """
+    width, height = size
+    if is_shift(camera):
+        return _shifted(picture, math.floor(camera[2] + 0.5), math.floor(camera[5] + 0.5), size)
+    a, b, c, d, e, f = camera
+    back = np.linalg.inv(np.array([[e, d], [b, a]]))
+    # Centres of pixels lie at a half: rows and columns count from there.
+    start = back @ np.array([0.5 - f, 0.5 - c]) - 0.5
+    seen = np.empty((height, width, picture.shape[2]), picture.dtype)
+    for channel in range(picture.shape[2]):
+        ndimage.affine_transform(
+            picture[..., channel].astype(np.float32),
+            back,
+            start,
+            output_shape=(height, width),
+            output=(plane := np.zeros((height, width), np.float32)),
+            order=1,
+            mode="constant",
+        )
+        seen[..., channel] = np.rint(plane) if picture.dtype == np.uint8 else plane
+    return seen
+
+
+def _shifted(
+    picture: NDArray[Sample], right: int, down: int, size: tuple[int, int]
+) -> NDArray[Sample]:
+    width, height = size
+    if (right, down) == (0, 0) and picture.shape[:2] == (height, width):
+        return picture
+    seen = np.zeros((height, width, picture.shape[2]), picture.dtype)
+    left, top = max(0, right), max(0, down)
+    part = picture[max(0, -down) : max(0, height - down), max(0, -right) : max(0, width - right)]
+    part = part[: max(0, height - top), : max(0, width - left)]
+    seen[top : top + part.shape[0], left : left + part.shape[1]] = part
+    return seen
