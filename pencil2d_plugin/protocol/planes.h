@@ -52,6 +52,9 @@ PlaneView viewOf(Role role, const QImage& image);
 /// A copy of the pixels, the only one made of them; null if memory is short. `view` must have been checked.
 QImage toImage(const PlaneView& view);
 
+/// BLAKE2b-160 of a plane's rows without their padding, in hexadecimal.
+QByteArray rowsDigest(const PlaneView& view);
+
 /// The name of a frame's content (SPEC 3.3): BLAKE2b-160 of its planes in the order pixels, mask, ink, as
 /// 40 lower-case hexadecimal digits. Takes about 1 ms a megabyte: not for the UI thread.
 QByteArray frameDigest(const QVector<PlaneView>& planes);

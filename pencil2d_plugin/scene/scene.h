@@ -100,8 +100,14 @@ AreaLight defaultLight(const QSize& canvas, double x, double y);
 /// One light above the upper left of the canvas, no floor.
 Scene defaultScene(const QSize& canvas);
 
+/// The nearest scene within the schema's ranges; materials under keys that are no colour are left out.
+Scene clamped(const Scene& scene);
+
 /// The scene as JSON, unknown fields included, defaults spelled out.
 QJsonObject toJson(const Scene& scene);
+
+/// The same scene with the fields of materials left out that equal their defaults.
+QJsonObject toShortJson(const Scene& scene);
 
 /// Read a scene; on failure returns nothing and says in `fault`, if given, which field and why.
 std::optional<Scene> sceneFromJson(const QJsonObject& tree, QString* fault = nullptr);

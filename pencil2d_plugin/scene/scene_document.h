@@ -31,18 +31,19 @@ public:
     void edit(const QString& text, const Scene& scene, int gesture = 0);
     void selectLight(int index);
 
-    /// Start over: another project, nothing to undo.
+    /// Start over: another project, nothing to undo, the first light selected.
     void reset(const Scene& scene);
 
     /// The sidecar of a project: "<project>.lampblack.json" beside it ("walk.pclx" has
-    /// "walk.pclx.lampblack.json"). Returns false and tells by problem() if it cannot be used; a broken
-    /// file is never overwritten: it is first moved to "<name>.broken".
+    /// "walk.pclx.lampblack.json"). load() and save() return false and tell by problem() if it cannot be
+    /// used; load() returns false in silence if there is none, and leaves the scene as it is either way. A
+    /// broken file is never overwritten: it is first moved to "<name>.broken".
     static QString sidecarOf(const QString& projectPath);
     bool load(const QString& projectPath);
     bool save(const QString& projectPath);
 
-    /// Whether the scene differs from what was last loaded or saved.
-    bool isModified() const;
+    /// Whether the scene differs from what was last loaded, saved or reset to.
+    bool isModified() const { return mScene != mKept; }
 
 Q_SIGNALS:
     void sceneChanged();
@@ -52,7 +53,14 @@ Q_SIGNALS:
     void problem(const lampblack::UserError& error);
 
 private:
+    class Edit;
+
+    void announce();
+
     Scene mScene;
+    Scene mAnnounced; ///< the scene that listeners know
+    Scene mKept;      ///< as last loaded, saved or reset to
+    bool mAnnouncedModified = false;
     int mSelectedLight = -1;
     QUndoStack mUndo;
 };
