@@ -1,0 +1,107 @@
+#include "worker/outbox.h"
+
+namespace lampblack
+{
+
+namespace
+{
+
+constexpr int MostLasting = 1000;
+
+// Frames are keyed by their number.
+constexpr qint64 SceneKey = -1;
+constexpr qint64 LookKey = -2;
+constexpr qint64 NoKey = -3;
+
+qint64 keyOf(const protocol::Message& message)
+{
+    if (const auto* put = std::get_if<protocol::PutFrame>(&message))
+    {
+        return put->frame;
+    }
+    if (const auto* drop = std::get_if<protocol::DropFrame>(&message))
+    {
+        return drop->frame;
+    }
+    if (std::holds_alternative<protocol::SetScene>(message))
+    {
+        return SceneKey;
+    }
+    const bool look =
+        std::holds_alternative<protocol::Preview>(message) || std::holds_alternative<protocol::View>(message);
+    return look ? LookKey : NoKey;
+}
+
+bool isBarrier(const protocol::Message& message)
+{
+    return std::holds_alternative<protocol::Hello>(message) ||
+           std::holds_alternative<protocol::Render>(message);
+}
+
+/// `newer` with the pixels that `older` carried, if both show the same drawing: the worker asked for them.
+Outgoing merged(const Outgoing& older, Outgoing newer)
+{
+    const auto* was = std::get_if<protocol::PutFrame>(&older.message);
+    auto* is = std::get_if<protocol::PutFrame>(&newer.message);
+    if (was != nullptr && is != nullptr && was->digest == is->digest && newer.pixels.isNull())
+    {
+        is->planes = was->planes;
+        newer.pixels = older.pixels;
+    }
+    return newer;
+}
+
+} // namespace
+
+bool Outbox::push(const Outgoing& outgoing)
+{
+    const qint64 key = keyOf(outgoing.message);
+    const auto found = mReplaceable.constFind(key);
+    if (found != mReplaceable.constEnd())
+    {
+        const Place place = found.value();
+        if (key != LookKey)
+        {
+            place->outgoing = merged(place->outgoing, outgoing);
+            return true;
+        }
+        mWaiting.erase(place); // its request must come after all that were made since
+    }
+    if (key == NoKey)
+    {
+        if (mLasting >= MostLasting)
+        {
+            return false;
+        }
+        ++mLasting;
+        if (isBarrier(outgoing.message))
+        {
+            mReplaceable.clear();
+        }
+    }
+    mWaiting.push_back({outgoing, key});
+    if (key != NoKey)
+    {
+        mReplaceable.insert(key, std::prev(mWaiting.end()));
+    }
+    return true;
+}
+
+Outgoing Outbox::takeFirst()
+{
+    const Place first = mWaiting.begin();
+    const auto found = mReplaceable.constFind(first->key);
+    if (first->key == NoKey)
+    {
+        --mLasting;
+    }
+    else if (found != mReplaceable.constEnd() && found.value() == first)
+    {
+        mReplaceable.erase(found);
+    }
+    Outgoing outgoing = std::move(first->outgoing);
+    mWaiting.erase(first);
+    return outgoing;
+}
+
+} // namespace lampblack

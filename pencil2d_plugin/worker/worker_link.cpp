@@ -1,0 +1,321 @@
+#include "worker/worker_link.h"
+
+#include "protocol/codec.h"
+
+#include <QDeadlineTimer>
+#include <QLoggingCategory>
+#include <QMutexLocker>
+
+#include <csignal>
+
+namespace lampblack
+{
+
+namespace
+{
+
+Q_LOGGING_CATEGORY(log, "lampblack.worker")
+
+constexpr int HighWater = 4; // what waits longer is better replaced in the outbox
+constexpr int HeartbeatMs = 1000;
+constexpr int HeartbeatTimeoutMs = 5000;
+constexpr qint64 GreetingMs = 10000;
+constexpr int MostRefusalsLogged = 10;
+constexpr int MostAtOnce = 64;           // taken in before anything is sent again
+constexpr size_t MostFrames = 1 + 4 + 1; // one too many tells the decoder as well as a thousand
+
+qint64 now()
+{
+    return QDeadlineTimer::current(Qt::PreciseTimer).deadline();
+}
+
+zmq::message_t messageOf(const QByteArray& bytes)
+{
+    return zmq::message_t(bytes.constData(), static_cast<size_t>(bytes.size()));
+}
+
+/// The image's own bits; ZeroMQ holds a reference until they are sent.
+zmq::message_t messageOf(const QImage& image)
+{
+    auto* kept = new QImage(image);
+    const auto release = [](void*, void* hint)
+    {
+        delete static_cast<QImage*>(hint);
+    };
+    return zmq::message_t(const_cast<uchar*>(kept->constBits()), static_cast<size_t>(kept->sizeInBytes()),
+                          release, kept);
+}
+
+/// The host's signals (SIGCHLD, say) must not interrupt this thread's calls.
+void maskSignals()
+{
+    sigset_t signalsToBlock;
+    sigfillset(&signalsToBlock);
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP})
+    {
+        sigdelset(&signalsToBlock, fault);
+    }
+    pthread_sigmask(SIG_BLOCK, &signalsToBlock, nullptr);
+}
+
+protocol::Error faultOf(protocol::ErrorCode code, const QString& details)
+{
+    protocol::Error error;
+    error.code = protocol::name(code);
+    error.details = details;
+    error.fatal = code == protocol::ErrorCode::VersionMismatch;
+    return error;
+}
+
+} // namespace
+
+WorkerLink::WorkerLink(const QString& endpoint, QObject* parent)
+    : QThread(parent), mEndpoint(endpoint.toUtf8()), mWake(mContext, zmq::socket_type::pair)
+{
+    mWake.bind("inproc://wake");
+    start();
+}
+
+WorkerLink::~WorkerLink()
+{
+    {
+        const QMutexLocker lock(&mMutex);
+        mClosing = true;
+    }
+    wakeUp();
+    wait();
+}
+
+void WorkerLink::retire()
+{
+    disconnect(this, nullptr, nullptr, nullptr);
+    connect(this, &QThread::finished, this, &QObject::deleteLater);
+    {
+        const QMutexLocker lock(&mMutex);
+        mClosing = true;
+    }
+    wakeUp();
+    if (isFinished())
+    {
+        deleteLater();
+    }
+}
+
+bool WorkerLink::send(const Outgoing& outgoing)
+{
+    {
+        const QMutexLocker lock(&mMutex);
+        if (!mOutbox.push(outgoing))
+        {
+            return false;
+        }
+    }
+    wakeUp();
+    return true;
+}
+
+QVector<Incoming> WorkerLink::take()
+{
+    QVector<Incoming> taken;
+    bool wasFull = false;
+    {
+        const QMutexLocker lock(&mMutex);
+        wasFull = mInbox.isFull();
+        taken = mInbox.take();
+    }
+    if (wasFull)
+    {
+        wakeUp();
+    }
+    return taken;
+}
+
+void WorkerLink::wakeUp()
+{
+    try
+    {
+        // Where this would block, the thread has been woken often enough.
+        mWake.send(zmq::message_t(), zmq::send_flags::dontwait);
+    }
+    catch (const zmq::error_t&)
+    {
+        return; // the thread has ended, or is about to
+    }
+}
+
+bool WorkerLink::inboxIsFull()
+{
+    const QMutexLocker lock(&mMutex);
+    return mInbox.isFull();
+}
+
+bool WorkerLink::outboxIsEmpty()
+{
+    const QMutexLocker lock(&mMutex);
+    return mOutbox.isEmpty();
+}
+
+void WorkerLink::run()
+{
+    maskSignals();
+    try
+    {
+        zmq::socket_t socket(mContext, zmq::socket_type::dealer);
+        socket.set(zmq::sockopt::linger, 0);
+        socket.set(zmq::sockopt::sndhwm, HighWater);
+        socket.set(zmq::sockopt::rcvhwm, HighWater);
+        socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(protocol::Limits().planeBytes));
+        socket.set(zmq::sockopt::heartbeat_ivl, HeartbeatMs);
+        socket.set(zmq::sockopt::heartbeat_timeout, HeartbeatTimeoutMs);
+        socket.connect(mEndpoint.constData());
+        zmq::socket_t wake(mContext, zmq::socket_type::pair);
+        wake.connect("inproc://wake");
+        converse(socket, wake);
+    }
+    catch (const std::exception& error)
+    {
+        qCWarning(log) << "The connection to the worker broke:" << error.what();
+    }
+    Q_EMIT silent();
+}
+
+void WorkerLink::converse(zmq::socket_t& socket, zmq::socket_t& wake)
+{
+    mPatienceMs = GreetingMs;
+    mHeardMs = now();
+    for (;;)
+    {
+        {
+            const QMutexLocker lock(&mMutex);
+            if (mClosing)
+            {
+                return;
+            }
+        }
+        const bool reading = !inboxIsFull();
+        if (!reading)
+        {
+            mHeardMs = now(); // the silence is ours
+        }
+        const int events = (reading ? ZMQ_POLLIN : 0) | (outboxIsEmpty() ? 0 : ZMQ_POLLOUT);
+        zmq::pollitem_t items[] = {{wake.handle(), 0, ZMQ_POLLIN, 0},
+                                   {socket.handle(), 0, static_cast<short>(events), 0}};
+        const qint64 left = mHeardMs + mPatienceMs - now();
+        zmq::poll(items, 2, std::chrono::milliseconds(qMax(qint64(0), left) + 1));
+        zmq::message_t nudge;
+        while (wake.recv(nudge, zmq::recv_flags::dontwait))
+        {
+        }
+        flush(socket);
+        if (reading)
+        {
+            drain(socket);
+            if (now() - mHeardMs > mPatienceMs)
+            {
+                return;
+            }
+        }
+    }
+}
+
+void WorkerLink::flush(zmq::socket_t& socket)
+{
+    while ((socket.get(zmq::sockopt::events) & ZMQ_POLLOUT) != 0)
+    {
+        Outgoing outgoing;
+        {
+            const QMutexLocker lock(&mMutex);
+            if (mOutbox.isEmpty())
+            {
+                return;
+            }
+            outgoing = mOutbox.takeFirst();
+        }
+        const std::optional<QByteArray> header = protocol::encode(outgoing.message);
+        if (!header)
+        {
+            const QString type = protocol::typeOf(outgoing.message);
+            deliver({faultOf(protocol::ErrorCode::HeaderTooLarge, type), {}});
+            continue;
+        }
+        const bool planes = !outgoing.pixels.isNull();
+        socket.send(messageOf(*header), planes ? zmq::send_flags::sndmore : zmq::send_flags::dontwait);
+        if (planes)
+        {
+            socket.send(messageOf(outgoing.pixels), zmq::send_flags::dontwait);
+        }
+    }
+}
+
+void WorkerLink::drain(zmq::socket_t& socket)
+{
+    for (int count = 0; count < MostAtOnce && !inboxIsFull(); ++count)
+    {
+        std::vector<zmq::message_t> frames(1);
+        if (!socket.recv(frames.back(), zmq::recv_flags::dontwait))
+        {
+            return;
+        }
+        while (frames.back().more())
+        {
+            if (frames.size() < MostFrames)
+            {
+                frames.emplace_back();
+            }
+            // A message arrives whole: its other frames are there.
+            (void)socket.recv(frames.back(), zmq::recv_flags::none);
+        }
+        receive(frames);
+    }
+}
+
+void WorkerLink::receive(const std::vector<zmq::message_t>& frames)
+{
+    QVector<protocol::Bytes> bytes;
+    for (const zmq::message_t& frame : frames)
+    {
+        bytes.append({frame.data(), static_cast<qint64>(frame.size())});
+    }
+    const protocol::Decoded decoded = protocol::decode(bytes, protocol::Sender::Worker);
+    if (const auto* refusal = std::get_if<protocol::Refusal>(&decoded))
+    {
+        if (++mRefused <= MostRefusalsLogged)
+        {
+            qCWarning(log) << "A message of the worker was dropped:" << protocol::name(refusal->code)
+                           << refusal->details;
+        }
+        if (refusal->code == protocol::ErrorCode::VersionMismatch)
+        {
+            deliver({faultOf(refusal->code, refusal->details), {}});
+        }
+        return;
+    }
+    const auto& received = std::get<protocol::Received>(decoded);
+    if (const auto* welcome = std::get_if<protocol::Welcome>(&received.message))
+    {
+        mPatienceMs = 3 * welcome->statusMs + welcome->statusMs / 2;
+        mHeardMs = now();
+    }
+    if (std::holds_alternative<protocol::Status>(received.message))
+    {
+        mHeardMs = now();
+    }
+    deliver({received.message,
+             received.planes.isEmpty() ? QImage() : protocol::toImage(received.planes.first())});
+}
+
+void WorkerLink::deliver(const Incoming& incoming)
+{
+    bool first = false;
+    {
+        const QMutexLocker lock(&mMutex);
+        first = mInbox.isEmpty();
+        mInbox.push(incoming);
+    }
+    if (first)
+    {
+        Q_EMIT arrived();
+    }
+}
+
+} // namespace lampblack
