@@ -1,0 +1,140 @@
+#include "tool/canvas/canvas_overlay.h"
+
+#include "tool/canvas/handle_painter.h"
+
+#include <QEvent>
+#include <QPaintEvent>
+
+namespace lampblack
+{
+
+CanvasOverlay::CanvasOverlay(Host& host, const SceneDocument& document)
+    : QWidget(host.canvas()), mHost(host), mDocument(document)
+{
+    setObjectName(QStringLiteral("lampblack.overlay"));
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_NoSystemBackground);
+    setFocusPolicy(Qt::NoFocus);
+    hide();
+    setGeometry(host.canvas()->rect());
+    host.canvas()->installEventFilter(this);
+    connect(&document, &SceneDocument::sceneChanged, this, &CanvasOverlay::follow);
+    connect(&document, &SceneDocument::selectionChanged, this, &CanvasOverlay::follow);
+    connect(&host, &Host::viewChanged, this, &CanvasOverlay::follow);
+}
+
+bool CanvasOverlay::showsPicture() const
+{
+    return !mComparing && !mPicture.isEmpty() && mCanvasToWidget;
+}
+
+void CanvasOverlay::setPicture(const LookImage& look, const QTransform& canvasToImage)
+{
+    const QRect before = mCanvasToWidget ? mPicture.bounds(*mCanvasToWidget) : QRect();
+    mPicture.setPicture(look, canvasToImage);
+    if (mCanvasToWidget)
+        update(before.united(mPicture.bounds(*mCanvasToWidget)));
+}
+
+void CanvasOverlay::setBackdrop(const FrameExport& backdrop)
+{
+    mPicture.setBackdrop(backdrop);
+    if (mCanvasToWidget)
+        update(mPicture.bounds(*mCanvasToWidget));
+}
+
+void CanvasOverlay::clearPicture()
+{
+    if (mPicture.isEmpty())
+        return;
+    const QRect before = mCanvasToWidget ? mPicture.bounds(*mCanvasToWidget) : rect();
+    mPicture.clear();
+    update(before);
+}
+
+void CanvasOverlay::setComparing(bool comparing)
+{
+    if (comparing == mComparing)
+        return;
+    mComparing = comparing;
+    update();
+}
+
+void CanvasOverlay::setHandlesShown(bool shown)
+{
+    if (shown == mHandlesShown)
+        return;
+    mHandlesShown = shown;
+    update(handlesRegion());
+}
+
+void CanvasOverlay::setHovered(const Handle& handle)
+{
+    if (handle == mHovered)
+        return;
+    mHovered = handle;
+    update(handlesRegion());
+}
+
+void CanvasOverlay::setTag(const QString& text, const QPointF& beside)
+{
+    if (text == mTag && beside == mTagBeside)
+        return;
+    QRect area;
+    if (!mTag.isEmpty())
+        area = tagBounds(font(), mTag, mTagBeside, size());
+    mTag = text;
+    mTagBeside = beside;
+    if (!mTag.isEmpty())
+        area |= tagBounds(font(), mTag, mTagBeside, size());
+    update(area.adjusted(-1, -1, 1, 1));
+}
+
+void CanvasOverlay::follow()
+{
+    if (!isVisible())
+        return;
+    const std::optional<QTransform> transform = mHost.canvasToWidget();
+    if (transform != mCanvasToWidget)
+    {
+        mCanvasToWidget = transform;
+        update();
+    }
+    const QRegion before = handlesRegion();
+    mHandles = transform && transform->isInvertible()
+                   ? Handles(mDocument.scene(), mDocument.selectedLight(), *transform, size())
+                   : Handles();
+    update(before + handlesRegion());
+}
+
+void CanvasOverlay::paintEvent(QPaintEvent* event)
+{
+    if (!mCanvasToWidget || !mCanvasToWidget->isInvertible())
+        return;
+    QPainter painter(this);
+    painter.setClipRegion(event->region());
+    if (showsPicture())
+        mPicture.paint(painter, *mCanvasToWidget, size(), devicePixelRatioF(), mHost.paper());
+    if (!mHandlesShown)
+        return;
+    paintHandles(painter, mHandles, mHovered);
+    if (!mTag.isEmpty())
+        paintTag(painter, mTag, mTagBeside, size());
+}
+
+bool CanvasOverlay::eventFilter(QObject* watched, QEvent* event)
+{
+    if (watched == parent() && event->type() == QEvent::Resize)
+    {
+        setGeometry(parentWidget()->rect());
+        follow();
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+QRegion CanvasOverlay::handlesRegion() const
+{
+    return mHandles.region() & rect();
+}
+
+} // namespace lampblack

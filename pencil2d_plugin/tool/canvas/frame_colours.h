@@ -1,0 +1,28 @@
+// The flat colour under the pointer, from the last exported frame.
+#pragma once
+
+#include "host/host.h"
+#include "worker/worker.h"
+
+#include <QPointF>
+
+namespace lampblack
+{
+
+class FrameColours
+{
+public:
+    void setFrame(const FrameExport& frame) { mFrame = frame; }
+    void setSwatches(const QVector<Swatch>& swatches);
+    const FrameExport& frame() const { return mFrame; }
+
+    /// "#rrggbb" of the swatch at a canvas point, or an empty string where nothing is drawn. Between
+    /// colours, and on ink, it is the nearest swatch.
+    QString at(const QPointF& canvas) const;
+
+private:
+    FrameExport mFrame;
+    QVector<QRgb> mSwatches;
+};
+
+} // namespace lampblack

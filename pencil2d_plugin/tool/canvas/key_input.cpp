@@ -1,0 +1,177 @@
+#include "tool/canvas/key_input.h"
+
+#include <QApplication>
+#include <QLineEdit>
+#include <QTextEdit>
+
+namespace lampblack
+{
+
+namespace
+{
+
+constexpr int CompareKey = Qt::Key_D;
+constexpr double FarNudge = 10;
+
+bool isArrow(int key)
+{
+    return key == Qt::Key_Left || key == Qt::Key_Right || key == Qt::Key_Up || key == Qt::Key_Down;
+}
+
+bool isDelete(int key)
+{
+    return key == Qt::Key_Delete || key == Qt::Key_Backspace;
+}
+
+} // namespace
+
+KeyInput::KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input)
+    : QObject(&overlay), mHost(host), mDocument(document), mOverlay(overlay), mInput(input)
+{
+}
+
+KeyInput::~KeyInput()
+{
+    setListening(false);
+}
+
+void KeyInput::setListening(bool listening)
+{
+    if (listening == mListening)
+        return;
+    mListening = listening;
+    if (listening)
+    {
+        qApp->installEventFilter(this);
+        return;
+    }
+    qApp->removeEventFilter(this);
+    setComparing(false);
+}
+
+bool KeyInput::eventFilter(QObject* watched, QEvent* event)
+{
+    const QEvent::Type type = event->type();
+    if (type == QEvent::WindowDeactivate && watched == mHost.window())
+        setComparing(false); // the key may be released elsewhere
+    if (type != QEvent::ShortcutOverride && type != QEvent::KeyPress && type != QEvent::KeyRelease)
+        return false;
+    if (!watched->isWidgetType()) // a window passes it to its widgets
+        return false;
+    const auto& key = static_cast<QKeyEvent&>(*event);
+    if (type == QEvent::KeyRelease)
+    {
+        if (!mComparing || key.key() != CompareKey)
+            return false;
+        if (!key.isAutoRepeat())
+            setComparing(false);
+        return true;
+    }
+    if (!isOurs(key))
+        return false;
+    event->accept();
+    return type == QEvent::ShortcutOverride || press(key);
+}
+
+bool KeyInput::isOurs(const QKeyEvent& key) const
+{
+    if (QApplication::activePopupWidget() || QApplication::activeModalWidget())
+        return false;
+    // Text that somebody else lets the artist type has its own undo.
+    QWidget* focus = QApplication::focusWidget();
+    const bool isForeignText = (qobject_cast<QLineEdit*>(focus) || qobject_cast<QTextEdit*>(focus)) &&
+                               !focus->property("lampblack.value").toBool();
+    if (!isForeignText && mHost.can(Host::Ability::Undo))
+    {
+        const QUndoStack& stack = *mDocument.undoStack();
+        if (key.matches(QKeySequence::Undo))
+            return stack.canUndo();
+        if (key.matches(QKeySequence::Redo))
+            return stack.canRedo();
+    }
+    if (key.key() == Qt::Key_Escape)
+        return mInput.isDragging() || mInput.isPicking();
+    if (!focusIsOnCanvas())
+        return false;
+    const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::KeypadModifier;
+    if (key.key() == CompareKey && modifiers == Qt::NoModifier)
+        return true;
+    if (mDocument.selectedLight() < 0)
+        return false;
+    return (isDelete(key.key()) && modifiers == Qt::NoModifier) ||
+           (isArrow(key.key()) && !(modifiers & ~Qt::ShiftModifier));
+}
+
+bool KeyInput::press(const QKeyEvent& key)
+{
+    if (key.matches(QKeySequence::Undo) || key.matches(QKeySequence::Redo))
+    {
+        mInput.cancelDrag();
+        if (key.matches(QKeySequence::Undo))
+            mDocument.undoStack()->undo();
+        else
+            mDocument.undoStack()->redo();
+    }
+    else if (key.key() == Qt::Key_Escape)
+    {
+        mInput.cancelDrag();
+        mInput.setPicking(false);
+    }
+    else if (key.key() == CompareKey)
+    {
+        setComparing(true);
+    }
+    else if (isDelete(key.key()))
+    {
+        mInput.cancelDrag();
+        mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), mDocument.selectedLight()));
+    }
+    else
+    {
+        nudge(key);
+    }
+    return true;
+}
+
+bool KeyInput::focusIsOnCanvas() const
+{
+    const QWidget* focus = QApplication::focusWidget();
+    return !focus || focus == mHost.canvas() || focus == mHost.window();
+}
+
+void KeyInput::nudge(const QKeyEvent& key)
+{
+    Scene scene = mDocument.scene();
+    const int selected = mDocument.selectedLight();
+    if (selected >= scene.lights.size() || !mOverlay.canvasToWidget())
+        return;
+    const double step = key.modifiers().testFlag(Qt::ShiftModifier) ? FarNudge : 1;
+    QPointF by;
+    by.setX(key.key() == Qt::Key_Left ? -step : key.key() == Qt::Key_Right ? step : 0);
+    by.setY(key.key() == Qt::Key_Up ? -step : key.key() == Qt::Key_Down ? step : 0);
+    // Left is left on the screen, however the canvas is turned; a step is a canvas pixel at every zoom.
+    const QTransform toCanvas = mOverlay.canvasToWidget()->inverted();
+    by = (toCanvas.map(by) - toCanvas.map(QPointF())) / scaleOf(toCanvas);
+    AreaLight& light = scene.lights[selected];
+    light.x += by.x();
+    light.y += by.y();
+    mDocument.edit(tr("Nudge Light"), scene, mNudgeRun.of(QString::number(selected)));
+}
+
+void KeyInput::setComparing(bool comparing)
+{
+    if (comparing == mComparing)
+        return;
+    mComparing = comparing;
+    mOverlay.setComparing(comparing);
+    Q_EMIT comparingChanged(comparing);
+}
+
+Scene withoutLight(Scene scene, int light)
+{
+    if (light >= 0 && light < scene.lights.size())
+        scene.lights.remove(light);
+    return scene;
+}
+
+} // namespace lampblack

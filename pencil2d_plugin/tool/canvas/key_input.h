@@ -1,0 +1,53 @@
+// Keys while the lamp is in use.
+#pragma once
+
+#include "host/host.h"
+#include "scene/scene_document.h"
+#include "tool/canvas/canvas_input.h"
+#include "tool/gesture.h"
+
+#include <QKeyEvent>
+#include <QObject>
+
+namespace lampblack
+{
+
+/// Undo and redo go to the scene first, from wherever the focus is. With the focus on the canvas,
+/// arrows nudge the selected light, Delete removes it, Escape takes a drag back, and holding D shows
+/// the drawing as drawn. Watches the application only while it listens.
+class KeyInput : public QObject
+{
+    Q_OBJECT
+
+public:
+    KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input);
+    ~KeyInput() override;
+
+    void setListening(bool listening);
+
+Q_SIGNALS:
+    void comparingChanged(bool comparing);
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    bool isOurs(const QKeyEvent& key) const;
+    bool press(const QKeyEvent& key);
+    bool focusIsOnCanvas() const;
+    void nudge(const QKeyEvent& key);
+    void setComparing(bool comparing);
+
+    Host& mHost;
+    SceneDocument& mDocument;
+    CanvasOverlay& mOverlay;
+    CanvasInput& mInput;
+    GestureRun mNudgeRun;
+    bool mListening = false;
+    bool mComparing = false;
+};
+
+/// `scene` without one of its lights.
+Scene withoutLight(Scene scene, int light);
+
+} // namespace lampblack

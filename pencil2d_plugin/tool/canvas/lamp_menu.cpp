@@ -1,0 +1,131 @@
+#include "tool/canvas/lamp_menu.h"
+
+#include "tool/canvas/key_input.h"
+#include "tool/materials/material_edit.h"
+
+#include <QPainter>
+#include <QPixmap>
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr int IconSide = 16;
+}
+
+LampMenu::LampMenu(SceneDocument& document, QWidget* parent) : QMenu(parent), mDocument(document)
+{
+    setObjectName(QStringLiteral("lampblack.menu"));
+}
+
+void LampMenu::openAt(const QPointF& canvas, const QPoint& global, const QString& colour)
+{
+    fill(canvas, colour);
+    popup(global);
+}
+
+QAction* LampMenu::add(const char* name, const QString& text, const std::function<void()>& act)
+{
+    QAction* action = addAction(text);
+    action->setObjectName(QStringLiteral("lampblack.menu.") + QLatin1String(name));
+    connect(action, &QAction::triggered, this, [act] { act(); });
+    return action;
+}
+
+void LampMenu::fill(const QPointF& canvas, const QString& colour)
+{
+    clear();
+    const Scene& scene = mDocument.scene();
+    QAction* addLight = add("add_light", tr("Add a Light Here"),
+                            [this, canvas]
+                            {
+                                Scene lit = mDocument.scene();
+                                lit.lights << defaultLight(lit.canvas, canvas.x(), canvas.y());
+                                mDocument.edit(tr("Add Light"), lit);
+                                mDocument.selectLight(mDocument.scene().lights.size() - 1);
+                            });
+    addLight->setEnabled(scene.lights.size() < MaxLights);
+    if (!addLight->isEnabled())
+        addLight->setText(tr("Add a Light Here (%1 at most)").arg(MaxLights));
+    const int selected = mDocument.selectedLight();
+    if (selected >= 0 && selected < scene.lights.size())
+    {
+        add("delete_light", tr("Delete Light %1").arg(selected + 1),
+            [this, selected]
+            { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), selected)); });
+    }
+    addSeparator();
+    add("floor", scene.floor ? tr("Move the Floor Here") : tr("Put a Floor Here"),
+        [this, canvas]
+        {
+            Scene floored = mDocument.scene();
+            Floor floor = floored.floor.value_or(Floor());
+            floor.y = canvas.y();
+            floored.floor = floor;
+            mDocument.edit(tr("Place Floor"), floored);
+        });
+    if (scene.floor)
+    {
+        add("remove_floor", tr("Remove the Floor"),
+            [this]
+            {
+                Scene bare = mDocument.scene();
+                bare.floor.reset();
+                mDocument.edit(tr("Remove Floor"), bare);
+            });
+    }
+    if (!colour.isEmpty())
+        fillMaterial(colour);
+    addSeparator();
+    add("reset", tr("Reset Lighting"),
+        [this] { mDocument.edit(tr("Reset Lighting"), withLightingReset(mDocument.scene())); });
+}
+
+void LampMenu::fillMaterial(const QString& colour)
+{
+    QAction* heading = addSection(colourIcon(QColor(colour), IconSide, devicePixelRatioF()), colour);
+    heading->setObjectName(QStringLiteral("lampblack.menu.colour"));
+    const Material material = mDocument.scene().material(colour);
+    const auto tick = [this, colour](const char* name, const QString& text, bool on, bool Material::*field)
+    {
+        QAction* action =
+            add(name, text,
+                [this, colour, on, field]
+                {
+                    Material changed = mDocument.scene().material(colour);
+                    changed.*field = !on;
+                    mDocument.edit(tr("Change Material"), withMaterial(mDocument.scene(), colour, changed));
+                });
+        action->setCheckable(true);
+        action->setChecked(on);
+    };
+    tick("diffuse", tr("Diffuse"), material.diffuse, &Material::diffuse);
+    tick("glossy", tr("Glossy"), material.glossy, &Material::glossy);
+    add("materials", tr("Edit in Materials…"), [this, colour] { Q_EMIT editMaterialRequested(colour); });
+}
+
+Scene withLightingReset(Scene scene)
+{
+    const Scene fresh = defaultScene(scene.canvas);
+    scene.lights = fresh.lights;
+    scene.ambient = fresh.ambient;
+    scene.floor = fresh.floor;
+    return scene;
+}
+
+QIcon colourIcon(const QColor& colour, int side, double pixelRatio)
+{
+    QPixmap pixmap((QSizeF(side, side) * pixelRatio).toSize());
+    pixmap.setDevicePixelRatio(pixelRatio);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QColor(0, 0, 0, 110));
+    painter.setBrush(colour);
+    painter.drawRoundedRect(QRectF(0.5, 0.5, side - 1, side - 1), 2, 2);
+    painter.end();
+    return QIcon(pixmap);
+}
+
+} // namespace lampblack

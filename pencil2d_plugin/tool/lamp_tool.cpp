@@ -1,0 +1,253 @@
+#include "tool/lamp_tool.h"
+
+#include "tool/canvas/canvas_input.h"
+#include "tool/canvas/canvas_overlay.h"
+#include "tool/canvas/key_input.h"
+#include "tool/canvas/lamp_menu.h"
+#include "tool/materials/materials_dock.h"
+#include "tool/panel/lamp_panel.h"
+
+// Resources of a static library must be asked for, and from outside any namespace.
+static void initIcons()
+{
+    Q_INIT_RESOURCE(lampblack_icons);
+}
+
+namespace lampblack
+{
+
+namespace
+{
+
+Show showOf(ViewMode mode)
+{
+    switch (mode)
+    {
+    case ViewMode::Normals:
+        return Show::Normals;
+    case ViewMode::Relief:
+        return Show::Relief;
+    case ViewMode::Lit:
+    case ViewMode::Flat:
+        break;
+    }
+    return Show::Lit;
+}
+
+} // namespace
+
+LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
+    : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mTool(new QAction(this)),
+      mRender(new QAction(this))
+{
+    initIcons();
+    makeTool();
+    makePanel();
+    makeDock();
+    makeCanvas();
+    connect(&worker, &Worker::problem, this, &LampTool::showProblem);
+    connect(&document, &SceneDocument::problem, this, &LampTool::showProblem);
+    connect(&host, &Host::toolActivated, this, &LampTool::setActive);
+}
+
+LampTool::~LampTool()
+{
+    delete mOverlay; // and with it the filters on the canvas
+    delete mMenu;
+    delete mMaterials;
+    delete mPanel;
+}
+
+void LampTool::makeTool()
+{
+    mTool->setObjectName(QStringLiteral("lampblack.tool"));
+    mTool->setCheckable(true);
+    mTool->setText(tr("Lamp"));
+    mTool->setIcon(QIcon(QStringLiteral(":/lampblack/lamp.svg")));
+    mTool->setShortcut(Qt::Key_L);
+    mTool->setToolTip(tr("<b>Lamp Tool (L)</b><br>Light the drawing"));
+    mTool->setStatusTip(
+        tr("Drag a light to move it, turn the wheel over it for its height, right-click for more"));
+    mRender->setObjectName(QStringLiteral("lampblack.render"));
+    mRender->setText(tr("Render All Frames"));
+    mRender->setToolTip(tr("Light every frame at the chosen quality, into image files beside the project"));
+    connect(mRender, &QAction::triggered, this, &LampTool::renderAllRequested);
+    mHost.addAnimationAction(mRender);
+    if (mHost.can(Host::Ability::Palette))
+    {
+        mHost.addTool(mTool);
+        return;
+    }
+    mHost.addAnimationAction(mTool);
+    connect(mTool, &QAction::toggled, this, &LampTool::setActive);
+}
+
+void LampTool::makePanel()
+{
+    mPanel = new LampPanel(mHost, mDocument, *mRender);
+    connect(mPanel, &LampPanel::viewModeChanged, this, &LampTool::setViewMode);
+    connect(mPanel->render(), &RenderSection::generateSurfacesRequested, this,
+            &LampTool::generateSurfacesRequested);
+    connect(mPanel->render(), &RenderSection::cancelRequested, this, &LampTool::cancelRequested);
+    connect(&mWorker, &Worker::stateChanged, mPanel.data(), &LampPanel::setWorkerState);
+    mPanel->setWorkerState(mWorker.state());
+    if (mHost.can(Host::Ability::Panel))
+    {
+        mHost.setToolPanel(mPanel);
+        return;
+    }
+    auto* dock = new QDockWidget(tr("Lamp"));
+    dock->setObjectName(QStringLiteral("lampblack.panel.dock"));
+    dock->setWidget(mPanel);
+    mHost.addDock(dock);
+}
+
+void LampTool::makeDock()
+{
+    mMaterials = new MaterialsDock(mDocument);
+    connect(mMaterials, &MaterialsDock::pickRequested, this,
+            [this](bool picking)
+            {
+                if (picking && !mActive)
+                    mTool->trigger();
+                if (mInput)
+                    mInput->setPicking(picking && mActive);
+                if (picking && mMaterials)
+                    mMaterials->setPicking(mInput && mInput->isPicking());
+            });
+    mHost.addDock(mMaterials);
+}
+
+void LampTool::makeCanvas()
+{
+    if (mHost.canvas() == nullptr)
+        return;
+    mOverlay = new CanvasOverlay(mHost, mDocument);
+    mInput = new CanvasInput(mHost, mDocument, *mOverlay);
+    mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput);
+    mMenu = new LampMenu(mDocument, mHost.canvas());
+    connect(&mHost, &Host::playingChanged, mOverlay.data(),
+            [this](bool playing) { mOverlay->setHandlesShown(!playing); });
+    connect(mInput, &CanvasInput::menuRequested, mMenu.data(),
+            [this](const QPointF& canvas, const QPoint& global)
+            { mMenu->openAt(canvas, global, mColours.at(canvas)); });
+    connect(mInput, &CanvasInput::pointed, this, &LampTool::point);
+    connect(mInput, &CanvasInput::left, this,
+            [this]
+            {
+                if (mMaterials)
+                    mMaterials->setHighlighted(QString());
+            });
+    connect(mInput, &CanvasInput::picked, this,
+            [this](const QPointF& canvas)
+            {
+                if (mMaterials)
+                    mMaterials->reveal(mColours.at(canvas));
+            });
+    connect(mInput, &CanvasInput::pickingChanged, this,
+            [this](bool picking)
+            {
+                if (mMaterials)
+                    mMaterials->setPicking(picking);
+            });
+    connect(mMenu, &LampMenu::editMaterialRequested, this,
+            [this](const QString& colour)
+            {
+                if (mMaterials)
+                    mMaterials->reveal(colour);
+            });
+}
+
+void LampTool::setActive(bool active)
+{
+    if (active == mActive)
+        return;
+    mActive = active;
+    if (mOverlay)
+    {
+        mOverlay->setVisible(active);
+        mOverlay->raise();
+        mOverlay->follow();
+        mInput->setListening(active);
+        mKeys->setListening(active);
+    }
+    if (active)
+        mHost.showStatus(mTool->statusTip());
+    Q_EMIT activeChanged(active);
+}
+
+ViewMode LampTool::viewMode() const
+{
+    return mPanel ? mPanel->viewMode() : ViewMode::Flat;
+}
+
+void LampTool::setViewMode(ViewMode mode)
+{
+    if (mPanel)
+        mPanel->setViewMode(mode);
+    if (mOverlay)
+        mOverlay->clearPicture();
+    Q_EMIT viewModeChanged(mode);
+}
+
+void LampTool::setFrame(const FrameExport& frame)
+{
+    mColours.setFrame(frame);
+    if (frame.canvasToImage.isIdentity())
+        mCameras.remove(frame.frame);
+    else
+        mCameras.insert(frame.frame, frame.canvasToImage);
+}
+
+void LampTool::setPicture(const LookImage& picture)
+{
+    if (!mOverlay || viewMode() == ViewMode::Flat || picture.show != showOf(viewMode()))
+        return;
+    mOverlay->setPicture(picture, mCameras.value(picture.frame));
+}
+
+void LampTool::clearPicture()
+{
+    if (mOverlay)
+        mOverlay->clearPicture();
+}
+
+void LampTool::setBackdrop(const FrameExport& backdrop)
+{
+    if (mOverlay)
+        mOverlay->setBackdrop(backdrop);
+}
+
+void LampTool::setPalette(const QVector<Swatch>& swatches)
+{
+    mColours.setSwatches(swatches);
+    if (mMaterials)
+        mMaterials->setPalette(swatches);
+}
+
+void LampTool::setSurfaceProgress(int done, int total)
+{
+    if (mPanel)
+        mPanel->render()->setSurfaceProgress(done, total);
+}
+
+void LampTool::setRenderProgress(int done, int total)
+{
+    if (mPanel)
+        mPanel->render()->setRenderProgress(done, total);
+}
+
+void LampTool::showProblem(const UserError& error)
+{
+    if (mPanel)
+        mPanel->showProblem(error);
+    mHost.showStatus(error.what);
+}
+
+void LampTool::point(const QPointF& canvas)
+{
+    if (mMaterials)
+        mMaterials->setHighlighted(mColours.at(canvas));
+}
+
+} // namespace lampblack

@@ -1,0 +1,167 @@
+#include "tool/materials/materials_dock.h"
+
+#include "tool/materials/material_edit.h"
+
+#include <QHBoxLayout>
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr int MostElsewhere = 256; // rows; the scene may hold thousands
+}
+
+MaterialsDock::MaterialsDock(SceneDocument& document)
+    : QDockWidget(tr("Materials")), mDocument(document), mPick(new QToolButton), mEmpty(new QLabel),
+      mScroll(new QScrollArea), mInFrame(new QVBoxLayout),
+      mElsewhere(new Section(QStringLiteral("lampblack.materials.elsewhere"), tr("Not in this frame"), false))
+{
+    setObjectName(QStringLiteral("lampblack.materials"));
+    mPick->setObjectName(QStringLiteral("lampblack.materials.pick"));
+    mPick->setIcon(QIcon(QStringLiteral(":/lampblack/eyedropper.svg")));
+    mPick->setToolTip(tr("Pick a colour on the canvas"));
+    mPick->setAccessibleName(tr("Pick a colour on the canvas"));
+    mPick->setCheckable(true);
+    mPick->setAutoRaise(true);
+    mPick->setFocusPolicy(Qt::StrongFocus);
+    auto* heading = new QHBoxLayout;
+    heading->setContentsMargins(6, 0, 2, 0);
+    heading->setSpacing(6);
+    heading->addWidget(mPick);
+    heading->addStretch(1);
+    for (const QString& title : {tr("Diffuse"), tr("Glossy")})
+    {
+        auto* label = new QLabel(title);
+        label->setAlignment(Qt::AlignCenter);
+        label->setFixedWidth(SwatchRow::ColumnWidth);
+        heading->addWidget(label);
+    }
+    mEmpty->setObjectName(QStringLiteral("lampblack.materials.empty"));
+    mEmpty->setText(tr("The colours of the drawing appear here once it has been looked at with the Lamp."));
+    mEmpty->setWordWrap(true);
+    mEmpty->setMargin(6);
+    mInFrame->setSpacing(0);
+    mElsewhere->body()->setContentsMargins(0, 0, 0, 0);
+    mElsewhere->body()->setSpacing(0);
+
+    auto* rows = new QWidget;
+    auto* column = new QVBoxLayout(rows);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(2);
+    column->addLayout(heading);
+    column->addWidget(mEmpty);
+    column->addLayout(mInFrame);
+    column->addWidget(mElsewhere);
+    column->addStretch(1);
+    mScroll->setFrameShape(QFrame::NoFrame);
+    mScroll->setWidgetResizable(true);
+    mScroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    mScroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
+    mScroll->setWidget(rows);
+    setWidget(mScroll);
+
+    connect(mPick, &QToolButton::clicked, this, &MaterialsDock::pickRequested);
+    connect(&document, &SceneDocument::sceneChanged, this, &MaterialsDock::refresh);
+    arrange();
+}
+
+void MaterialsDock::setPalette(const QVector<Swatch>& swatches)
+{
+    QVector<QString> palette;
+    for (const Swatch& swatch : swatches)
+        palette << swatch.colour;
+    if (palette == mPalette)
+        return;
+    mPalette = palette;
+    arrange();
+}
+
+void MaterialsDock::setHighlighted(const QString& colour)
+{
+    if (colour == mHighlighted)
+        return;
+    if (SwatchRow* before = mRows.value(mHighlighted))
+        before->setHighlighted(false);
+    mHighlighted = colour;
+    if (SwatchRow* now = mRows.value(colour))
+        now->setHighlighted(true);
+}
+
+void MaterialsDock::reveal(const QString& colour)
+{
+    show();
+    raise();
+    if (mOthers.contains(colour))
+        mElsewhere->setOpen(true);
+    setHighlighted(colour);
+    if (SwatchRow* found = mRows.value(colour))
+    {
+        mScroll->widget()->layout()->activate();
+        mScroll->ensureWidgetVisible(found);
+    }
+}
+
+void MaterialsDock::refresh()
+{
+    if (elsewhere() != mOthers)
+        arrange();
+    for (SwatchRow* each : qAsConst(mRows))
+        each->setMaterial(mDocument.scene().material(each->colour()));
+}
+
+QVector<QString> MaterialsDock::elsewhere() const
+{
+    QVector<QString> colours;
+    const QMap<QString, Material>& materials = mDocument.scene().materials;
+    for (auto material = materials.begin(); material != materials.end() && colours.size() < MostElsewhere;
+         ++material)
+    {
+        if (!mPalette.contains(material.key()))
+            colours << material.key();
+    }
+    return colours;
+}
+
+void MaterialsDock::arrange()
+{
+    mOthers = elsewhere();
+    for (auto each = mRows.begin(); each != mRows.end();)
+    {
+        if (mPalette.contains(each.key()) || mOthers.contains(each.key()))
+        {
+            ++each;
+            continue;
+        }
+        each.value()->hide();
+        each.value()->deleteLater();
+        each = mRows.erase(each);
+    }
+    for (int place = 0; place < mPalette.size(); ++place)
+        mInFrame->insertWidget(place, row(mPalette[place]));
+    for (int place = 0; place < mOthers.size(); ++place)
+        mElsewhere->body()->insertWidget(place, row(mOthers[place]));
+    mEmpty->setVisible(mPalette.isEmpty());
+    mElsewhere->setVisible(!mOthers.isEmpty());
+    mElsewhere->setTitle(tr("Not in this frame (%1)").arg(mOthers.size()));
+}
+
+SwatchRow* MaterialsDock::row(const QString& colour)
+{
+    SwatchRow*& found = mRows[colour];
+    if (found == nullptr)
+    {
+        found = new SwatchRow(colour, mScroll->widget());
+        found->setMaterial(mDocument.scene().material(colour));
+        found->setHighlighted(colour == mHighlighted);
+        connect(found, &SwatchRow::edited, this,
+                [this](const QString& edited, const Material& material, int gesture) {
+                    mDocument.edit(tr("Change Material"), withMaterial(mDocument.scene(), edited, material),
+                                   gesture);
+                });
+        found->show();
+    }
+    return found;
+}
+
+} // namespace lampblack

@@ -1,0 +1,96 @@
+#include "tool/panel/lamp_panel.h"
+
+#include "tool/panel/layers_section.h"
+#include "tool/panel/lights_section.h"
+#include "tool/panel/surroundings_section.h"
+
+#include <QHBoxLayout>
+#include <QScrollBar>
+
+namespace lampblack
+{
+
+LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
+    : mViews(new QButtonGroup(this)), mProblem(new ProblemCard), mRender(new RenderSection(document, render)),
+      mWorkerLine(new WorkerLine)
+{
+    setObjectName(QStringLiteral("lampblack.panel"));
+    setFrameShape(QFrame::NoFrame);
+    setWidgetResizable(true);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn); // what comes and goes must not shift the rest
+    auto* content = new QWidget;
+    auto* column = new QVBoxLayout(content);
+    column->setContentsMargins(4, 4, 4, 4);
+    column->setSpacing(4);
+    column->addWidget(mProblem);
+    column->addWidget(viewSwitch());
+    column->addWidget(mWorkerLine);
+    if (!host.can(Host::Ability::View))
+    {
+        auto* blind = new QLabel(host.whyNot(Host::Ability::View));
+        blind->setObjectName(QStringLiteral("lampblack.panel.blind"));
+        blind->setWordWrap(true);
+        column->addWidget(blind);
+    }
+    column->addWidget(new LightsSection(document));
+    column->addWidget(new AmbientSection(document));
+    column->addWidget(new SurfaceSection(document));
+    column->addWidget(new FloorSection(document));
+    column->addWidget(new LayersSection(host, document));
+    column->addWidget(mRender);
+    column->addStretch(1);
+    setWidget(content);
+}
+
+QWidget* LampPanel::viewSwitch()
+{
+    auto* box = new QWidget;
+    auto* row = new QHBoxLayout(box);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(0);
+    const auto add = [this, row](ViewMode mode, const QString& name, const QString& text, const QString& hint)
+    {
+        auto* button = new QToolButton;
+        button->setObjectName(QStringLiteral("lampblack.panel.view.") + name);
+        button->setText(text);
+        button->setToolTip(hint);
+        button->setCheckable(true);
+        button->setFocusPolicy(Qt::StrongFocus);
+        button->setSizePolicy(QSizePolicy::MinimumExpanding, QSizePolicy::Fixed);
+        mViews->addButton(button, int(mode));
+        row->addWidget(button);
+    };
+    add(ViewMode::Lit, QStringLiteral("lit"), tr("Lit"), tr("The drawing in its light"));
+    add(ViewMode::Normals, QStringLiteral("normals"), tr("Normals"), tr("Which way the surface faces"));
+    add(ViewMode::Relief, QStringLiteral("relief"), tr("Relief"), tr("How near the surface is"));
+    add(ViewMode::Flat, QStringLiteral("flat"), tr("Flat"),
+        tr("The drawing as drawn (hold D for a moment's look)"));
+    setViewMode(ViewMode::Lit);
+    connect(mViews, &QButtonGroup::idClicked, this,
+            [this](int mode) { Q_EMIT viewModeChanged(static_cast<ViewMode>(mode)); });
+    return box;
+}
+
+ViewMode LampPanel::viewMode() const
+{
+    return static_cast<ViewMode>(mViews->checkedId());
+}
+
+void LampPanel::setViewMode(ViewMode mode)
+{
+    mViews->button(int(mode))->setChecked(true);
+}
+
+void LampPanel::showProblem(const UserError& error)
+{
+    mProblem->tell(error);
+    verticalScrollBar()->setValue(0);
+}
+
+QSize LampPanel::sizeHint() const
+{
+    return {210, widget()->sizeHint().height()};
+}
+
+} // namespace lampblack

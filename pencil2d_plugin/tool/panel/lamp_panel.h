@@ -1,0 +1,45 @@
+// The panel in the tool options.
+#pragma once
+
+#include "host/host.h"
+#include "scene/scene_document.h"
+#include "tool/panel/problem_card.h"
+#include "tool/panel/render_section.h"
+#include "tool/view_mode.h"
+
+#include <QButtonGroup>
+#include <QScrollArea>
+
+namespace lampblack
+{
+
+/// Scrolls, so that it fits the smallest dock. Bound to the document both ways.
+class LampPanel : public QScrollArea
+{
+    Q_OBJECT
+
+public:
+    /// `render` is the action behind "Render All Frames".
+    LampPanel(Host& host, SceneDocument& document, QAction& render);
+
+    ViewMode viewMode() const;
+    void setViewMode(ViewMode mode);
+    void setWorkerState(Worker::State state) { mWorkerLine->setState(state); }
+    void showProblem(const UserError& error);
+    RenderSection* render() { return mRender; }
+
+    QSize sizeHint() const override;
+
+Q_SIGNALS:
+    void viewModeChanged(lampblack::ViewMode mode);
+
+private:
+    QWidget* viewSwitch();
+
+    QButtonGroup* mViews;
+    ProblemCard* mProblem;
+    RenderSection* mRender;
+    WorkerLine* mWorkerLine;
+};
+
+} // namespace lampblack

@@ -1,0 +1,78 @@
+#include "tool/panel/problem_card.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QHBoxLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace lampblack
+{
+
+ProblemCard::ProblemCard(QWidget* parent) : QFrame(parent), mWhat(new QLabel(this)), mRemedy(new QLabel(this))
+{
+    setObjectName(QStringLiteral("lampblack.panel.problem"));
+    setFrameShape(QFrame::StyledPanel);
+    // Readable on light and dark themes alike: the card brings its own colours.
+    QPalette card = palette();
+    card.setColor(QPalette::Window, QColor(255, 240, 214));
+    card.setColor(QPalette::WindowText, QColor(64, 40, 8));
+    card.setColor(QPalette::Button, QColor(255, 240, 214));
+    card.setColor(QPalette::ButtonText, QColor(64, 40, 8));
+    setPalette(card);
+    setAutoFillBackground(true);
+    const auto prepare = [](QLabel* label, const QString& name)
+    {
+        label->setObjectName(name);
+        label->setWordWrap(true);
+        label->setTextFormat(Qt::PlainText);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        // A long path must not widen the dock.
+        label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    };
+    prepare(mWhat, QStringLiteral("lampblack.panel.problem.what"));
+    prepare(mRemedy, QStringLiteral("lampblack.panel.problem.remedy"));
+    QFont bold = mWhat->font();
+    bold.setBold(true);
+    mWhat->setFont(bold);
+    auto* copy = new QToolButton(this);
+    copy->setObjectName(QStringLiteral("lampblack.panel.problem.copy"));
+    copy->setText(tr("Copy details"));
+    copy->setAutoRaise(true);
+    auto* dismiss = new QToolButton(this);
+    dismiss->setObjectName(QStringLiteral("lampblack.panel.problem.dismiss"));
+    dismiss->setText(tr("Dismiss"));
+    dismiss->setAutoRaise(true);
+    auto* buttons = new QHBoxLayout;
+    buttons->addWidget(copy);
+    buttons->addStretch(1);
+    buttons->addWidget(dismiss);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(8, 6, 4, 2);
+    column->setSpacing(3);
+    column->addWidget(mWhat);
+    column->addWidget(mRemedy);
+    column->addLayout(buttons);
+    connect(copy, &QToolButton::clicked, this, [this] { QApplication::clipboard()->setText(report()); });
+    connect(dismiss, &QToolButton::clicked, this, &QWidget::hide);
+    hide();
+}
+
+void ProblemCard::tell(const UserError& error)
+{
+    mError = error;
+    mWhat->setText(error.what);
+    mRemedy->setText(error.remedy);
+    mRemedy->setVisible(!error.remedy.isEmpty());
+    show();
+}
+
+QString ProblemCard::report() const
+{
+    QStringList parts{mError.what, mError.remedy, mError.details};
+    parts.removeAll(QString());
+    return parts.join(QLatin1Char('\n')) +
+           QStringLiteral("\n(Lampblack %1)").arg(QStringLiteral(LAMPBLACK_VERSION));
+}
+
+} // namespace lampblack

@@ -1,0 +1,138 @@
+#include "tool/panel/render_section.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QPainter>
+
+namespace lampblack
+{
+
+RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* parent)
+    : Section(QStringLiteral("lampblack.panel.render_section"), tr("Whole animation"), true, parent),
+      mDocument(document), mRender(render), mQuality(new QComboBox(this)),
+      mGenerate(new QPushButton(tr("Generate Surfaces"), this)),
+      mRenderAll(new QPushButton(tr("Render All Frames"), this)), mSurfaceBar(new QProgressBar(this)),
+      mRenderBar(new QProgressBar(this)), mCancel(new QPushButton(tr("Cancel"), this))
+{
+    mQuality->setObjectName(QStringLiteral("lampblack.panel.quality"));
+    mQuality->setAccessibleName(tr("Quality of rendered frames"));
+    mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
+    mQuality->addItems({tr("Low"), tr("Medium"), tr("Final")});
+    mQuality->setFocusPolicy(Qt::StrongFocus);
+    mGenerate->setObjectName(QStringLiteral("lampblack.panel.generate"));
+    mGenerate->setToolTip(tr("Model every frame now, so that scrubbing and playing are lit at once."));
+    mRenderAll->setObjectName(QStringLiteral("lampblack.panel.render"));
+    mRenderAll->setToolTip(render.toolTip());
+    mSurfaceBar->setObjectName(QStringLiteral("lampblack.panel.generate.progress"));
+    mSurfaceBar->setAccessibleName(tr("Frames with surfaces"));
+    mSurfaceBar->setFormat(tr("%v of %m"));
+    mRenderBar->setObjectName(QStringLiteral("lampblack.panel.render.progress"));
+    mRenderBar->setAccessibleName(tr("Rendered frames"));
+    mRenderBar->setFormat(tr("%v of %m"));
+    mCancel->setObjectName(QStringLiteral("lampblack.panel.cancel"));
+    for (QPushButton* button : {mGenerate, mRenderAll, mCancel})
+    {
+        button->setAutoDefault(false);
+        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    }
+    auto* quality = new QHBoxLayout;
+    quality->addWidget(new QLabel(tr("Quality"), this));
+    quality->addStretch(1);
+    quality->addWidget(mQuality);
+    body()->addWidget(mGenerate);
+    body()->addWidget(mSurfaceBar);
+    body()->addLayout(quality);
+    body()->addWidget(mRenderAll);
+    body()->addWidget(mRenderBar);
+    body()->addWidget(mCancel);
+    connect(mGenerate, &QPushButton::clicked, this, &RenderSection::generateSurfacesRequested);
+    connect(mRenderAll, &QPushButton::clicked, &render, &QAction::trigger);
+    connect(mCancel, &QPushButton::clicked, this, &RenderSection::cancelRequested);
+    connect(mQuality, qOverload<int>(&QComboBox::activated), this,
+            [this](int index)
+            {
+                Scene scene = mDocument.scene();
+                scene.quality = static_cast<Quality>(index);
+                mDocument.edit(tr("Change Quality"), scene);
+            });
+    connect(&document, &SceneDocument::sceneChanged, this, &RenderSection::refresh);
+    setSurfaceProgress(0, 0);
+    setRenderProgress(0, 0);
+    refresh();
+}
+
+void RenderSection::refresh()
+{
+    mQuality->setCurrentIndex(int(mDocument.scene().quality));
+}
+
+void RenderSection::setSurfaceProgress(int done, int total)
+{
+    setProgress(mSurfaceBar, done, total);
+}
+
+void RenderSection::setRenderProgress(int done, int total)
+{
+    setProgress(mRenderBar, done, total);
+}
+
+void RenderSection::setProgress(QProgressBar* bar, int done, int total)
+{
+    bar->setVisible(total > 0);
+    bar->setRange(0, total);
+    bar->setValue(done);
+    const bool isWorking = mSurfaceBar->isVisibleTo(this) || mRenderBar->isVisibleTo(this);
+    mCancel->setVisible(isWorking);
+    mGenerate->setEnabled(!isWorking);
+    mRenderAll->setEnabled(!isWorking);
+    mRender.setEnabled(!isWorking);
+}
+
+WorkerLine::WorkerLine(QWidget* parent) : QWidget(parent), mText(new QLabel(this))
+{
+    setObjectName(QStringLiteral("lampblack.panel.worker.line"));
+    mText->setObjectName(QStringLiteral("lampblack.panel.worker"));
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(20, 2, 2, 2);
+    row->addWidget(mText, 1);
+    setState(Worker::State::Absent);
+}
+
+void WorkerLine::setState(Worker::State state)
+{
+    switch (state)
+    {
+    case Worker::State::Absent:
+        mText->setText(tr("No light yet"));
+        mDot = QColor(150, 150, 150);
+        break;
+    case Worker::State::Starting:
+        mText->setText(tr("Starting…"));
+        mDot = QColor(232, 170, 40);
+        break;
+    case Worker::State::Ready:
+        mText->setText(tr("Ready"));
+        mDot = QColor(74, 168, 88);
+        break;
+    case Worker::State::Busy:
+        mText->setText(tr("Lighting…"));
+        mDot = QColor(74, 168, 88);
+        break;
+    case Worker::State::Restarting:
+        mText->setText(tr("Starting again…"));
+        mDot = QColor(232, 170, 40);
+        break;
+    }
+    update();
+}
+
+void WorkerLine::paintEvent(QPaintEvent*)
+{
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QColor(0, 0, 0, 90));
+    painter.setBrush(mDot);
+    painter.drawEllipse(QPointF(11, height() / 2.0), 4, 4);
+}
+
+} // namespace lampblack

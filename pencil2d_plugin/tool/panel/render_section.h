@@ -1,0 +1,64 @@
+// Work on the whole animation: surfaces, final frames, how far they are, and the worker's state.
+#pragma once
+
+#include "scene/scene_document.h"
+#include "tool/panel/section.h"
+#include "worker/worker.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+namespace lampblack
+{
+
+class RenderSection : public Section
+{
+    Q_OBJECT
+
+public:
+    /// `render` is the action behind the button.
+    RenderSection(SceneDocument& document, QAction& render, QWidget* parent = nullptr);
+
+    /// `total` 0: no such work is going on.
+    void setSurfaceProgress(int done, int total);
+    void setRenderProgress(int done, int total);
+
+Q_SIGNALS:
+    void generateSurfacesRequested();
+    void cancelRequested();
+
+private:
+    void refresh();
+    void setProgress(QProgressBar* bar, int done, int total);
+
+    SceneDocument& mDocument;
+    QAction& mRender;
+    QComboBox* mQuality;
+    QPushButton* mGenerate;
+    QPushButton* mRenderAll;
+    QProgressBar* mSurfaceBar;
+    QProgressBar* mRenderBar;
+    QPushButton* mCancel;
+};
+
+/// "Ready" and the like, with a dot in the state's colour.
+class WorkerLine : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit WorkerLine(QWidget* parent = nullptr);
+
+    void setState(Worker::State state);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    QLabel* mText;
+    QColor mDot;
+};
+
+} // namespace lampblack

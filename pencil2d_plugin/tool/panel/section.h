@@ -1,0 +1,30 @@
+// A part of the panel that folds.
+#pragma once
+
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <QWidget>
+
+namespace lampblack
+{
+
+class Section : public QWidget
+{
+    Q_OBJECT
+
+public:
+    /// The heading's objectName is `name`.
+    Section(const QString& name, const QString& title, bool open, QWidget* parent = nullptr);
+
+    QVBoxLayout* body() { return mBody; }
+    bool isOpen() const { return mHeading->isChecked(); }
+    void setOpen(bool open) { mHeading->setChecked(open); }
+    void setTitle(const QString& title) { mHeading->setText(title); }
+
+private:
+    QToolButton* mHeading;
+    QWidget* mContent;
+    QVBoxLayout* mBody;
+};
+
+} // namespace lampblack

@@ -1,0 +1,150 @@
+#include "tool/panel/surroundings_section.h"
+
+#include "tool/materials/material_edit.h"
+
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr double Far = 1e5;
+
+/// Near the lower edge, where feet are.
+Floor firstFloor(const Scene& scene)
+{
+    Floor floor;
+    floor.y = 0.9 * scene.canvas.height();
+    return floor;
+}
+
+} // namespace
+
+AmbientSection::AmbientSection(SceneDocument& document, QWidget* parent)
+    : Section(QStringLiteral("lampblack.panel.ambient_section"), tr("Ambient light"), true, parent),
+      mDocument(document)
+{
+    auto* colourRow = new QHBoxLayout;
+    mColour = new ColourButton(QStringLiteral("lampblack.panel.ambient.colour"),
+                               tr("Colour of the ambient light"), this);
+    colourRow->addWidget(new QLabel(tr("Colour"), this));
+    colourRow->addStretch(1);
+    colourRow->addWidget(mColour);
+    mStrength = new ValueRow(QStringLiteral("lampblack.panel.ambient"), tr("Strength"),
+                             {0, 100, 2, 2, false, 2}, this);
+    mStrength->setHint(tr("Light from everywhere. It fills the shadows; 1 alone shows the drawn colours."));
+    body()->addLayout(colourRow);
+    body()->addWidget(mStrength);
+    connect(mColour, &ColourButton::edited, this,
+            [this](const QColor& colour, int gesture)
+            {
+                Scene scene = mDocument.scene();
+                scene.ambient.colour = colour;
+                mDocument.edit(tr("Change Ambient Colour"), scene, gesture);
+            });
+    connect(mStrength, &ValueRow::edited, this,
+            [this](double value, int gesture)
+            {
+                Scene scene = mDocument.scene();
+                scene.ambient.strength = value;
+                mDocument.edit(tr("Change Ambient Light"), scene, gesture);
+            });
+    connect(&document, &SceneDocument::sceneChanged, this, &AmbientSection::refresh);
+    refresh();
+}
+
+void AmbientSection::refresh()
+{
+    mColour->setColour(mDocument.scene().ambient.colour);
+    mStrength->setValue(mDocument.scene().ambient.strength);
+}
+
+SurfaceSection::SurfaceSection(SceneDocument& document, QWidget* parent)
+    : Section(QStringLiteral("lampblack.panel.surface_section"), tr("Surface"), true, parent),
+      mDocument(document)
+{
+    mRelief = new ValueRow(QStringLiteral("lampblack.panel.relief"), tr("Relief"), {0.01, 10, 4, 3, false, 2},
+                           this);
+    mRelief->setHint(tr("Above 1 everything is rounder, below 1 flatter."));
+    mRoughness = new ValueRow(QStringLiteral("lampblack.panel.roughness"), tr("Roughness"),
+                              {0.02, 1, 1, 0, false, 2}, this);
+    mRoughness->setHint(tr("Of glossy colours: 0.02 is a mirror, 1 is satin. (A glossy exponent, the other "
+                           "way round.) Colours with a roughness of their own keep it."));
+    body()->addWidget(mRelief);
+    body()->addWidget(mRoughness);
+    connect(mRelief, &ValueRow::edited, this,
+            [this](double value, int gesture)
+            {
+                Scene scene = mDocument.scene();
+                scene.reliefScale = value;
+                mDocument.edit(tr("Change Relief"), scene, gesture);
+            });
+    connect(mRoughness, &ValueRow::edited, this,
+            [this](double value, int gesture)
+            { mDocument.edit(tr("Change Roughness"), withRoughness(mDocument.scene(), value), gesture); });
+    connect(&document, &SceneDocument::sceneChanged, this, &SurfaceSection::refresh);
+    refresh();
+}
+
+void SurfaceSection::refresh()
+{
+    mRelief->setValue(mDocument.scene().reliefScale);
+    mRoughness->setValue(mDocument.scene().defaultMaterial.roughness);
+}
+
+FloorSection::FloorSection(SceneDocument& document, QWidget* parent)
+    : Section(QStringLiteral("lampblack.panel.floor_section"), tr("Floor"), true, parent),
+      mDocument(document), mOn(new QCheckBox(tr("Catch shadows"), this))
+{
+    mOn->setObjectName(QStringLiteral("lampblack.panel.floor"));
+    mPosition = new ValueRow(QStringLiteral("lampblack.panel.floor.position"), tr("Position"),
+                             {-Far, Far, 1, 0, false, 0}, this);
+    mPosition->setHint(tr("Where the floor meets the paper, from the top edge."));
+    mPitch = new ValueRow(QStringLiteral("lampblack.panel.floor.pitch"), tr("Pitch"),
+                          {5, 85, 85, 0, false, 0}, this);
+    mPitch->setSuffix(QStringLiteral("°"));
+    mPitch->setHint(tr("Small: the floor is seen from the side. Large: it stands up like a wall."));
+    body()->addWidget(mOn);
+    body()->addWidget(mPosition);
+    body()->addWidget(mPitch);
+    connect(mOn, &QCheckBox::clicked, this,
+            [this](bool on)
+            {
+                Scene scene = mDocument.scene();
+                scene.floor.reset();
+                if (on)
+                    scene.floor = firstFloor(scene);
+                mDocument.edit(on ? tr("Place Floor") : tr("Remove Floor"), scene);
+            });
+    connect(mPosition, &ValueRow::edited, this,
+            [this](double value, int gesture) { change(tr("Move Floor"), gesture, &Floor::y, value); });
+    connect(mPitch, &ValueRow::edited, this,
+            [this](double value, int gesture) { change(tr("Pitch Floor"), gesture, &Floor::pitch, value); });
+    connect(&document, &SceneDocument::sceneChanged, this, &FloorSection::refresh);
+    refresh();
+}
+
+void FloorSection::refresh()
+{
+    const Scene& scene = mDocument.scene();
+    mOn->setChecked(scene.floor.has_value());
+    mPosition->setEnabled(scene.floor.has_value());
+    mPitch->setEnabled(scene.floor.has_value());
+    mPosition->setScale({-Far, Far, double(scene.canvas.height()), 0, false, 0});
+    const Floor floor = scene.floor.value_or(firstFloor(scene));
+    mPosition->setValue(floor.y);
+    mPitch->setValue(floor.pitch);
+}
+
+void FloorSection::change(const QString& text, int gesture, double Floor::*field, double value)
+{
+    Scene scene = mDocument.scene();
+    if (!scene.floor)
+        return;
+    (*scene.floor).*field = value;
+    mDocument.edit(text, scene, gesture);
+}
+
+} // namespace lampblack

@@ -1,0 +1,121 @@
+#include "tool/panel/value_row.h"
+
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QSignalBlocker>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr int Steps = 1000;
+constexpr int LabelWidth = 66;
+constexpr int FieldWidth = 52;
+} // namespace
+
+double SliderScale::valueAt(double position) const
+{
+    const double way = std::abs(position);
+    const double share = bend > 0 ? std::expm1(bend * way) / std::expm1(bend) : way;
+    return std::clamp(std::copysign(share * end, position), least, most);
+}
+
+double SliderScale::positionOf(double value) const
+{
+    const double share = std::min(1.0, std::abs(value) / end);
+    const double way = bend > 0 ? std::log1p(share * std::expm1(bend)) / bend : share;
+    return std::copysign(way, value);
+}
+
+ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale& scale, QWidget* parent)
+    : QWidget(parent), mLabel(new QLabel(label, this)), mSlider(new QSlider(Qt::Horizontal, this)),
+      mField(new QDoubleSpinBox(this))
+{
+    setObjectName(name + QStringLiteral(".row"));
+    mSlider->setObjectName(name);
+    mSlider->setMinimumWidth(40);
+    mSlider->setAccessibleName(label);
+    mField->setObjectName(name + QStringLiteral(".field"));
+    mField->setAccessibleName(label);
+    mField->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    mField->setAlignment(Qt::AlignRight);
+    mField->setKeyboardTracking(false);
+    mField->setFixedWidth(FieldWidth);
+    // Lets Ctrl+Z in the field undo the scene rather than the typing.
+    mField->findChild<QLineEdit*>()->setProperty("lampblack.value", true);
+    mField->setProperty("lampblack.value", true);
+    mLabel->setFixedWidth(LabelWidth);
+    mLabel->setBuddy(mField);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(4);
+    row->addWidget(mLabel);
+    row->addWidget(mSlider, 1);
+    row->addWidget(mField);
+    setScale(scale);
+    connect(mSlider, &QSlider::sliderPressed, this, [this] { mSlide = newGesture(); });
+    connect(mSlider, &QSlider::sliderReleased, this, [this] { mSlide = 0; });
+    connect(mSlider, &QSlider::valueChanged, this, &ValueRow::slid);
+    connect(mField, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &ValueRow::typed);
+}
+
+void ValueRow::setScale(const SliderScale& scale)
+{
+    const QSignalBlocker quietSlider(mSlider);
+    const QSignalBlocker quietField(mField);
+    const double shown = mField->value();
+    mScale = scale;
+    mSlider->setRange(scale.both ? -Steps : 0, Steps);
+    mSlider->setPageStep(Steps / 10);
+    mSlider->setSingleStep(Steps / 100);
+    mField->setDecimals(scale.decimals);
+    mField->setRange(scale.least, scale.most);
+    mField->setSingleStep(scale.end / 20);
+    setValue(shown);
+}
+
+void ValueRow::setValue(double value)
+{
+    const QSignalBlocker quiet(mField);
+    mField->setValue(value);
+    showOnSlider(value);
+}
+
+void ValueRow::setHint(const QString& hint)
+{
+    setToolTip(hint);
+    mSlider->setAccessibleDescription(hint);
+    mField->setAccessibleDescription(hint);
+}
+
+void ValueRow::slid(int position)
+{
+    const double value = mScale.valueAt(double(position) / Steps);
+    const double rounding = std::pow(10, mScale.decimals);
+    const double shown = std::round(value * rounding) / rounding;
+    {
+        const QSignalBlocker quiet(mField);
+        mField->setValue(shown);
+    }
+    Q_EMIT edited(shown, mSlide ? mSlide : mRun.of(objectName()));
+}
+
+void ValueRow::typed(double value)
+{
+    showOnSlider(value);
+    Q_EMIT edited(value, mRun.of(objectName()));
+}
+
+void ValueRow::showOnSlider(double value)
+{
+    if (mSlider->isSliderDown())
+        return;
+    const QSignalBlocker quiet(mSlider);
+    mSlider->setValue(int(std::lround(mScale.positionOf(value) * Steps)));
+}
+
+} // namespace lampblack
