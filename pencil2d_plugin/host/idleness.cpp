@@ -16,11 +16,6 @@ Idleness::Idleness(QObject* parent) : QObject(parent)
     QCoreApplication::instance()->installEventFilter(this);
 }
 
-Idleness::~Idleness()
-{
-    QCoreApplication::instance()->removeEventFilter(this);
-}
-
 bool Idleness::isIdle() const
 {
     return mWork == 0 && !mPenDown && QGuiApplication::mouseButtons() == Qt::NoButton &&

@@ -13,7 +13,6 @@ class Idleness : public QObject
 
 public:
     explicit Idleness(QObject* parent);
-    ~Idleness() override;
 
     /// No button or pen is down, no menu or dialog is open, nothing was typed just now, and none of our
     /// own work is under way.

@@ -6,8 +6,10 @@
 #include <QInputDialog>
 #include <QLineEdit>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QScrollBar>
 
+#include <array>
 #include <cmath>
 
 namespace lampblack
@@ -19,8 +21,8 @@ namespace
 constexpr int RowHeight = 20; ///< of the header too
 constexpr int EyeX = 10;
 constexpr int NameX = 80;
-constexpr int IconX = 20;
-constexpr int IconSide = 20;
+constexpr int IconX = 19;
+constexpr int IconReach = 5; ///< each kind has its own place, a few pixels from another's
 constexpr int MaxRows = 500;
 const QPoint EyeCentre(EyeX, 8);
 
@@ -61,23 +63,24 @@ int difference(QRgb a, QRgb b)
     return std::abs(qRed(a) - qRed(b)) + std::abs(qGreen(a) - qGreen(b)) + std::abs(qBlue(a) - qBlue(b));
 }
 
-/// Mean difference between an icon and the place where it may be drawn, over its opaque pixels.
+/// Mean difference between an icon on its row's ground and the place where it may be drawn.
 double misfit(const QImage& picture, const QImage& icon, const QPoint& at)
 {
+    QImage expected(icon.size(), QImage::Format_RGB32);
+    expected.fill(picture.pixel(1, RowHeight / 2));
+    QPainter(&expected).drawImage(0, 0, icon);
     qint64 sum = 0;
-    qint64 count = 0;
     for (int y = 0; y < icon.height(); ++y)
     {
         for (int x = 0; x < icon.width(); ++x)
         {
             const QPoint there = at + QPoint(x, y);
-            if (qAlpha(icon.pixel(x, y)) < 250 || !picture.valid(there))
-                continue;
-            sum += difference(icon.pixel(x, y), picture.pixel(there));
-            ++count;
+            if (!picture.valid(there))
+                return 1000;
+            sum += difference(expected.pixel(x, y), picture.pixel(there));
         }
     }
-    return count == 0 ? 1000 : double(sum) / double(count);
+    return double(sum) / qMax(1, icon.width() * icon.height());
 }
 
 } // namespace
@@ -197,9 +200,10 @@ Layer::Kind LayerRows::kindOf(const QImage& picture) const
     for (const auto& [path, candidate] : Icons)
     {
         const QImage icon(QString::fromLatin1(path));
-        for (int shift = -3; shift <= 3; ++shift)
+        for (int shift = 0; shift < IconReach * IconReach; ++shift)
         {
-            const double fit = misfit(picture, icon, QPoint(IconX, shift));
+            const QPoint at(IconX + shift % IconReach, shift / IconReach);
+            const double fit = misfit(picture, icon, at);
             if (fit < best)
             {
                 best = fit;

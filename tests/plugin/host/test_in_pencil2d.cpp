@@ -1,0 +1,58 @@
+// Starts the real Pencil2D with host_visitor inside, on projects whose every pixel is known.
+#include "known_drawing.h"
+
+#include <QProcess>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+#include <QTest>
+
+class InPencil2D : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void visitorPasses_data()
+    {
+        QTest::addColumn<QString>("scale");
+        QTest::newRow("plain") << QStringLiteral("1");
+        QTest::newRow("high density") << QStringLiteral("2");
+    }
+
+    void visitorPasses()
+    {
+        QFETCH(QString, scale);
+        const QString program = QStandardPaths::findExecutable(QStringLiteral("pencil2d"));
+        if (program.isEmpty())
+            QSKIP("pencil2d is not installed");
+        QTemporaryDir home;
+        QVERIFY(home.isValid() && QDir(home.path()).mkpath(QStringLiteral("tmp")));
+        const QString still = home.filePath(QStringLiteral("still.pclx"));
+        const QString moving = home.filePath(QStringLiteral("moving.pclx"));
+        QVERIFY(known::writeProject(still, known::StillCamera));
+        QVERIFY(known::writeProject(moving, known::MovingCamera));
+
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.insert(QStringLiteral("HOME"), home.path());
+        environment.insert(QStringLiteral("TMPDIR"), home.filePath(QStringLiteral("tmp")));
+        environment.insert(QStringLiteral("XDG_RUNTIME_DIR"), home.path());
+        environment.remove(QStringLiteral("XDG_CONFIG_HOME"));
+        environment.insert(QStringLiteral("QT_PLUGIN_PATH"), QStringLiteral(LAMPBLACK_VISITOR_FOLDER));
+        environment.insert(QStringLiteral("QT_QPA_GENERIC_PLUGINS"), QStringLiteral("host_visitor"));
+        environment.insert(QStringLiteral("QT_SCALE_FACTOR"), scale);
+        environment.insert(QStringLiteral("VISITOR_MOVING_PROJECT"), moving);
+        QProcess pencil;
+        pencil.setProcessEnvironment(environment);
+        pencil.setProcessChannelMode(QProcess::MergedChannels);
+        pencil.start(program, {still});
+        constexpr int LimitMs = 100000;
+        const bool ended = pencil.waitForFinished(LimitMs);
+        const QByteArray told = pencil.readAll();
+        if (!ended)
+            pencil.kill();
+        if (!ended || pencil.exitStatus() != QProcess::NormalExit || pencil.exitCode() != 0)
+            QFAIL(("Inside Pencil2D:\n" + told).constData());
+    }
+};
+
+QTEST_GUILESS_MAIN(InPencil2D)
+#include "test_in_pencil2d.moc"
