@@ -141,8 +141,7 @@ class Pencil2D:
         self._probe = self._connect()
         wait_until(lambda: self.of_class("ScribbleArea"), "Pencil2D's canvas")
         title = project.name if project else "Pencil2D"
-        window = self.display.do("search", "--sync", "--onlyvisible", "--name", title)
-        self.window = window.split()[0]
+        self.window = wait_until(lambda: self._main_window(title), "Pencil2D's window")
         self.display.do("windowsize", "--sync", self.window, 1430, 960)
         self.display.do("windowmove", "--sync", self.window, 2, 20)
         self.display.do("windowactivate", "--sync", self.window)
@@ -217,6 +216,12 @@ class Pencil2D:
 
     def key(self, *keys: str) -> None:
         self.display.do("key", *keys)
+
+    def _main_window(self, title: str) -> str:
+        # A window that comes or goes meanwhile makes the search fail: look again.
+        with suppress(subprocess.CalledProcessError):
+            return self.display.do("search", "--onlyvisible", "--name", title).split()[0]
+        return ""
 
     def _connect(self) -> socket.socket:
         probe = socket.socket(socket.AF_UNIX)

@@ -1,0 +1,118 @@
+#include "plugin/frame_feed.h"
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr int MostKept = 256 * 1024; // KiB
+}
+
+FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
+    : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mExports(MostKept)
+{
+    connect(&host, &Host::frameChanged, this, &FrameFeed::wantCurrent);
+    connect(&host, &Host::frameExported, this, &FrameFeed::take);
+    connect(&host, &Host::exportFailed, this, &FrameFeed::failed);
+    connect(&host, &Host::drawingChanged, this,
+            [this](int frame)
+            {
+                forget(frame);
+                wantCurrent();
+            });
+    const auto startOver = [this]
+    {
+        forgetAll();
+        wantCurrent();
+    };
+    connect(&worker, &Worker::frameWanted, this,
+            [this](int frame) { mHost.requestFrames(frame, frame, litLayers()); });
+    connect(&host, &Host::layersChanged, this, startOver);
+    connect(&host, &Host::projectOpened, this, startOver);
+    connect(&document, &SceneDocument::layerRolesChanged, this, startOver);
+}
+
+void FrameFeed::setOn(bool on)
+{
+    mOn = on;
+    if (on)
+        wantCurrent();
+    else
+        mHost.cancelRequests();
+}
+
+FrameExport FrameFeed::lastExport(int frame) const
+{
+    const FrameExport* kept = mFresh.contains(frame) ? mExports.object(frame) : nullptr;
+    return kept ? *kept : FrameExport{};
+}
+
+QStringList FrameFeed::litLayers() const
+{
+    const QMap<QString, QString> roles = mDocument.layerRoles();
+    if (!roles.values().contains(QStringLiteral("background")))
+        return {};
+    QStringList lit;
+    for (const Layer& layer : mHost.layers())
+    {
+        const bool drawn = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
+        if (drawn && layer.visible && roles.value(layer.name) != QLatin1String("background"))
+            lit.append(layer.name);
+    }
+    return lit;
+}
+
+void FrameFeed::wantAll(int first, int last)
+{
+    for (int frame = first; frame <= last; ++frame)
+    {
+        if (isFresh(frame))
+            Q_EMIT freshened(frame);
+        else
+            mHost.requestFrames(frame, frame, litLayers());
+    }
+}
+
+void FrameFeed::stopWanting()
+{
+    mHost.cancelRequests();
+    wantCurrent();
+}
+
+void FrameFeed::wantCurrent()
+{
+    if (!mOn)
+        return;
+    const int frame = mHost.currentFrame();
+    if (isFresh(frame))
+        Q_EMIT freshened(frame);
+    else
+        mHost.requestFrames(frame, frame, litLayers());
+}
+
+void FrameFeed::take(const FrameExport& frame)
+{
+    mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage);
+    mFresh.insert(frame.frame);
+    const int cost = int(frame.image.sizeInBytes() / 1024) + 1;
+    mExports.insert(frame.frame, new FrameExport(frame), cost);
+    Q_EMIT freshened(frame.frame);
+}
+
+void FrameFeed::forget(int frame)
+{
+    mFresh.remove(frame);
+    mExports.remove(frame);
+    Q_EMIT staled(frame);
+}
+
+void FrameFeed::forgetAll()
+{
+    mFresh.clear();
+    mExports.clear();
+    mHost.cancelRequests();
+    mWorker.dropAllFrames();
+    Q_EMIT staled(mHost.currentFrame());
+}
+
+} // namespace lampblack
