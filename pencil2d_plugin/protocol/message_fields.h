@@ -137,8 +137,8 @@ template <class Fields> void describe(Fields& fields, DropFrame& drop)
 
 template <class Fields> void describe(Fields& fields, SetScene& set)
 {
-    fields.integer("revision", set.revision, 1, MaxNumber);
     fields.scene("scene", set.scene);
+    fields.integer("revision", set.revision, 1, MaxNumber);
 }
 
 template <class Fields> void describe(Fields& fields, Preview& preview)
