@@ -20,13 +20,20 @@ def atomic_file(path: Path) -> Iterator[BinaryIO]:
     Raises:
         OutputError: the folder is missing or not writable, or the disk is full.
     """
+    with atomic_path(path) as temporary, temporary.open("wb") as file:
+        yield file
+
+
+@contextmanager
+def atomic_path(path: Path) -> Iterator[Path]:
+    """As ``atomic_file``, for libraries that want the temporary name itself."""
     temporary = ""
     try:
         handle, temporary = tempfile.mkstemp(
             prefix=f".{path.stem[:40]}.", suffix=f".part{path.suffix}", dir=path.parent
         )
-        with os.fdopen(handle, "wb") as file:
-            yield file
+        os.close(handle)
+        yield Path(temporary)
         umask = os.umask(0)
         os.umask(umask)
         Path(temporary).chmod(0o666 & ~umask)  # mkstemp's own files are private

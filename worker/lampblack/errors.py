@@ -30,6 +30,10 @@ class NothingDrawnError(DrawingError):
     """The picture is blank: there is no figure to light."""
 
 
+class ProjectError(DrawingError):
+    """A Pencil2D project cannot be read."""
+
+
 class SceneError(LampblackError):
     """The scene is malformed, out of range or of an unknown version."""
 

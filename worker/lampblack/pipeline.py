@@ -17,6 +17,7 @@ from .composite import composite
 from .drawing import Drawing
 from .normals.predict import DEFAULT_GRIDS, NormalPredictor
 from .render import QUALITIES, Passes, RenderChild, frame_request
+from .render.tracings import Tracings
 from .scene import Scene
 from .surface import Relief, build_relief, guided_filter, solve
 
@@ -51,6 +52,7 @@ class Pipeline:
     ) -> None:
         self._cache = cache
         self._niceness = niceness
+        self._tracings = Tracings()
         self.options = options or PipelineOptions()
 
     def __enter__(self) -> Self:
@@ -73,6 +75,11 @@ class Pipeline:
     def child(self) -> RenderChild:
         """The renderer, started when first needed."""
         return RenderChild(self._niceness)
+
+    def rest(self) -> None:
+        """End the renderer and let go of its light; the next frame brings both back."""
+        self.child.close()
+        self._tracings = Tracings()
 
     def warm_up(self) -> None:
         """Load the network and start the renderer before the first drawing comes."""
@@ -124,13 +131,19 @@ class Pipeline:
         return replace(relief, vertices=relief.vertices * np.float32(step))
 
     def light(self, drawing: Drawing, scene: Scene) -> Passes:
-        """Trace every light of ``scene`` over the drawing's relief."""
+        """Trace the lights of ``scene`` over the drawing's relief, but for those that the last
+        call traced over the very same drawing."""
+        return self._tracings.complete(
+            drawing, scene, lambda asked, ambient: self._trace(drawing, asked, ambient=ambient)
+        )
+
+    def _trace(self, drawing: Drawing, scene: Scene, *, ambient: bool) -> Passes:
         relief = self.relief(
             drawing,
             relief_scale=scene.relief_scale,
             stride=QUALITIES[scene.quality].mesh_stride,
         )
-        return self.child.render(frame_request(drawing, relief, scene))
+        return self.child.render(replace(frame_request(drawing, relief, scene), ambient=ambient))
 
     def render(self, drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
         """(H, W, 4) uint8, sRGB, straight alpha: the drawing, lit."""

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ..cache import ArrayCache, user_cache_folder
 from ..drawing import Drawing, load_picture, take_apart
-from ..errors import LampblackError, SceneError
-from ..scene import MAX_LIGHTS, AreaLight, Canvas, Floor, Scene, decode_scene, default_light
+from ..errors import LampblackError
+from ..project.stack import Role
 
 
 class QualityName(StrEnum):
@@ -25,6 +25,13 @@ class QualityName(StrEnum):
     FINAL = "final"
 
 
+class FormatName(StrEnum):
+    """Kinds of finals."""
+
+    PNG = "png"
+    EXR = "exr"
+
+
 class Solver(StrEnum):
     """The exact minimiser, or the paper's gradient descent."""
 
@@ -32,6 +39,38 @@ class Solver(StrEnum):
     ADAM = "adam"
 
 
+InputsArgument = Annotated[
+    list[str], typer.Argument(metavar="INPUT", help="PNG, folder, walk.%04d.png, or a .pclx.")
+]
+SceneOption = Annotated[
+    Path | None,
+    typer.Option("--scene", help="Scene file. Default of walk.pclx: walk.pclx.lampblack.json."),
+]
+QualityOption = Annotated[
+    QualityName | None, typer.Option("--quality", help="Default: the scene's, or low.")
+]
+FramesOption = Annotated[
+    str | None, typer.Option("--frames", help="Frame numbers, such as 1-20x2,25.")
+]
+FormatOption = Annotated[
+    FormatName | None, typer.Option("--format", help="Default: the pattern's, or png.")
+]
+CharacterOption = Annotated[
+    list[str] | None,
+    typer.Option("--character", metavar="LAYER", help="Of a project: a layer to light."),
+]
+LineOption = Annotated[
+    list[str] | None,
+    typer.Option("--line", metavar="LAYER", help="Of a project: a layer of the characters' line."),
+]
+BackgroundOption = Annotated[
+    list[str] | None,
+    typer.Option("--background", metavar="LAYER", help="Of a project: a layer to leave unlit."),
+]
+CameraOption = Annotated[
+    str | None,
+    typer.Option("--camera", metavar="LAYER", help="Of a project; default: the first camera."),
+]
 MaskOption = Annotated[
     Path | None, typer.Option("--mask", help="Picture whose white or opaque part is the figure.")
 ]
@@ -39,9 +78,32 @@ InkOption = Annotated[
     Path | None, typer.Option("--ink", help="Picture whose dark or opaque part is the line.")
 ]
 GridsOption = Annotated[
-    int, typer.Option("--grids", min=1, max=64, help="Grids of tiles averaged for the normals.")
+    int,
+    typer.Option(
+        "--grids",
+        min=0,
+        max=64,
+        help="0: the whole figure at once; else the paper's grids of tiles.",
+    ),
 ]
 SolverOption = Annotated[Solver, typer.Option("--solver", help="How normals become a surface.")]
+
+
+def layer_roles(
+    character: list[str] | None, line: list[str] | None, background: list[str] | None
+) -> dict[str, Role]:
+    """What the layers of a project are, by name.
+
+    Raises:
+        LampblackError: a layer was named twice.
+    """
+    named: list[tuple[str, Role]] = [(name, "character") for name in character or []]
+    named += [(name, "line") for name in line or []]
+    named += [(name, "background") for name in background or []]
+    roles = dict(named)
+    if len(roles) < len(named):
+        raise LampblackError("A layer was named twice.", "A layer is one thing only.")
+    return roles
 
 
 def open_cache() -> ArrayCache:
@@ -56,55 +118,6 @@ def read_drawing(path: Path, mask: Path | None, ink: Path | None) -> Drawing:
 
 def _optional(path: Path | None) -> NDArray[np.uint8] | None:
     return None if path is None else load_picture(path)
-
-
-def read_scene(path: Path) -> Scene:
-    """Load a scene file.
-
-    Raises:
-        SceneError: it cannot be read, or is no scene.
-    """
-    try:
-        return decode_scene(path.read_bytes())
-    except OSError as error:
-        raise SceneError(
-            f"The scene {path} cannot be read.", "Write one: lampblack scene.", str(error)
-        ) from error
-
-
-def parse_light(text: str) -> tuple[float, float, float]:
-    """``X,Y,Z`` in canvas pixels.
-
-    Raises:
-        SceneError: not three finite numbers within a canvas's reach.
-    """
-    try:
-        x, y, z = (float(part) for part in text.split(","))
-    except ValueError:
-        raise SceneError(
-            f"{text!r} is not a light.", "Write it as X,Y,Z in pixels: --light 250,150,400."
-        ) from None
-    if not all(abs(value) <= 1e5 for value in (x, y, z)):
-        raise SceneError(f"The light {text!r} is out of range.", "Stay within 100000 pixels.")
-    return x, y, z
-
-
-def lights_at(texts: list[str], canvas: Canvas) -> tuple[AreaLight, ...]:
-    """A default light at each ``X,Y,Z``."""
-    if len(texts) > MAX_LIGHTS:
-        raise SceneError(f"{len(texts)} lights were named; {MAX_LIGHTS} is the most.")
-    return tuple(default_light(canvas, *parse_light(text)) for text in texts)
-
-
-def floor_at(line: float) -> Floor:
-    """The default floor at this canvas line.
-
-    Raises:
-        SceneError: not finite, or beyond a canvas's reach.
-    """
-    if not abs(line) <= 1e5:
-        raise SceneError(f"The floor {line} is out of range.", "Stay within 100000 pixels.")
-    return Floor(line)
 
 
 def keep_inputs(output: Path, inputs: Iterable[Path]) -> None:

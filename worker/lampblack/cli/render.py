@@ -1,10 +1,7 @@
-"""``lampblack render``: drawings in, lit drawings out."""
+"""``lampblack render``: drawings or a project in, lit frames out."""
 
 from __future__ import annotations
 
-import warnings
-from collections import Counter
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -12,44 +9,44 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
-from ..cache import digest
-from ..drawing import (
-    Frame,
-    find_frames,
-    load_picture,
-    parse_frames,
-    save_picture,
-    select_frames,
-    take_apart,
-)
+from ..drawing import load_picture, save_picture
 from ..drawing.contact_sheet import contact_sheet
-from ..errors import LampblackError, LampblackWarning, NothingDrawnError, OutputError
+from ..errors import LampblackError
+from ..finals.light import Outcome, light_frames
+from ..finals.order import OpenOrder, Order, open_order
+from ..finals.shot import ShotFrame
 from ..normals.predict import DEFAULT_GRIDS
-from ..pipeline import Pipeline, PipelineOptions
-from ..scene import Canvas, Scene, default_scene
+from ..pipeline import Pipeline
 from .console import EXIT_FAILED, EXIT_UNLIT, console, print_error, progress_bar
 from .options import (
+    BackgroundOption,
+    CameraOption,
+    CharacterOption,
+    FormatOption,
+    FramesOption,
     GridsOption,
     InkOption,
+    InputsArgument,
+    LineOption,
     MaskOption,
-    QualityName,
+    QualityOption,
+    SceneOption,
     Solver,
     SolverOption,
     check_suffix,
-    floor_at,
     keep_inputs,
-    lights_at,
+    layer_roles,
     open_cache,
-    read_scene,
 )
 
 
 def render(
-    inputs: Annotated[
-        list[str], typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
+    inputs: InputsArgument,
+    output: Annotated[
+        str,
+        typer.Option("-o", "--output", metavar="DIR|PATTERN", help="Folder, or lit.%04d.exr."),
     ],
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Output folder.")],
-    scene: Annotated[Path | None, typer.Option("--scene", help="Scene file.")] = None,
+    scene: SceneOption = None,
     light: Annotated[
         list[str] | None,
         typer.Option(
@@ -61,165 +58,109 @@ def render(
     floor: Annotated[
         float | None, typer.Option("--floor", metavar="Y", help="Shadow catcher at this line.")
     ] = None,
-    quality: Annotated[
-        QualityName | None, typer.Option("--quality", help="Default: the scene's, or low.")
-    ] = None,
-    frames: Annotated[
-        str | None, typer.Option("--frames", help="Frame numbers, such as 1-20x2,25.")
-    ] = None,
+    quality: QualityOption = None,
+    frames: FramesOption = None,
+    format: FormatOption = None,
     sheet: Annotated[
         Path | None,
         typer.Option("--contact-sheet", metavar="PNG", help="Drawings above, lit below."),
     ] = None,
+    character: CharacterOption = None,
+    line: LineOption = None,
+    background: BackgroundOption = None,
+    camera: CameraOption = None,
     mask: MaskOption = None,
     ink: InkOption = None,
     grids: GridsOption = DEFAULT_GRIDS,
     solver: SolverOption = Solver.DIRECT,
+    again: Annotated[
+        bool, typer.Option("--again", help="Make also frames that are there and up to date.")
+    ] = False,
 ) -> None:
-    """Light drawings; each becomes a PNG of its own name and size in DIR.
+    """Light drawings, or the frames of a Pencil2D project.
 
-    Exit code 1: a frame failed (the others are there). 3: a blank frame was passed through
-    unlit.
+    Frames that are there and up to date are left alone: run it again to go on after an
+    interruption. Exit code 1: a frame failed (the others are there). 3: a blank frame was
+    passed through unlit.
 
     Example: lampblack render walk/ -o lit/ --light 250,150,400 --quality final
     """
-    found = find_frames(inputs)
-    if frames is not None:
-        found = select_frames(found, parse_frames(frames))
-    _prepare_output(output, found)
+    order = Order(
+        inputs=tuple(inputs),
+        output=output,
+        scene=None if scene is None else str(scene),
+        lights=tuple(light or ()),
+        floor=floor,
+        quality=None if quality is None else quality.value,
+        frames=frames,
+        format=None if format is None else format.value,
+        mask=None if mask is None else str(mask),
+        ink=None if ink is None else str(ink),
+        grids=grids,
+        solver=solver.value,
+        roles=layer_roles(character, line, background),
+        camera=camera,
+        again=again,
+    )
+    opened = open_order(order)
     if sheet is not None:
-        check_suffix(sheet, ".png")
-        keep_inputs(sheet, [frame.path for frame in found])
-    read = None if scene is None else read_scene(scene)
-    # What is mistyped is told before any work.
-    lights_at(light or [], Canvas(1, 1))
-    hinge = None if floor is None else floor_at(floor)
+        _check_sheet(sheet, opened, inputs)
+    with Pipeline(open_cache(), opened.options) as pipeline, progress_bar() as bar:
+        task = bar.add_task("Lighting", total=len(opened.frames))
 
-    def stage(width: int, height: int) -> Scene:
-        """The scene for a drawing of this size: the file's or the default, with the options."""
-        staged = read or default_scene(width, height)
-        if light:
-            staged = replace(staged, lights=lights_at(light, Canvas(width, height)))
-        if hinge is not None:
-            staged = replace(staged, floor=hinge)
-        return staged if quality is None else replace(staged, quality=quality.value)
+        def told(frame: ShotFrame, error: LampblackError | None) -> None:
+            bar.advance(task)
+            if error is not None:
+                print_error(error, f"{frame.name}: ")
 
-    with Pipeline(open_cache(), PipelineOptions(grids, solver.value)) as pipeline:
-        job = _Job(pipeline, output, len(found) == 1, {})
-        job.mask = None if mask is None else load_picture(mask)
-        job.ink = None if ink is None else load_picture(ink)
-        with progress_bar() as bar:
-            task = bar.add_task("Lighting", total=len(found))
-            for frame in found:
-                try:
-                    picture = load_picture(frame.path)
-                    job.light(frame, picture, stage(picture.shape[1], picture.shape[0]))
-                    job.done.append(frame)
-                except LampblackError as error:
-                    print_error(error, f"{frame.path.name}: ")
-                    job.failed.append(frame)
-                    if isinstance(error, OutputError):
-                        break  # no later frame could be written either
-                bar.advance(task)
+        outcome = light_frames(opened, pipeline, listener=told)
     if sheet is not None:
-        _write_sheet(sheet, job.done, output)
-    _summarise(job, len(found))
+        _write_sheet(sheet, opened, outcome)
+    _summarise(opened, outcome)
 
 
-@dataclass
-class _Job:
-    """What the frames of one call share; ``lit`` maps a drawing's digest to its result."""
-
-    pipeline: Pipeline
-    output: Path
-    single: bool
-    lit: dict[str, Path]
-    mask: NDArray[np.uint8] | None = None
-    ink: NDArray[np.uint8] | None = None
-    canvas: Canvas | None = None
-    unlit: int = 0
-    done: list[Frame] = field(default_factory=list)
-    failed: list[Frame] = field(default_factory=list)
-
-    def light(self, frame: Frame, picture: NDArray[np.uint8], scene: Scene) -> None:
-        """Light one frame and write it; a drawing met before is only copied."""
-        target = self.output / frame.path.name
-        height, width = picture.shape[:2]
-        canvas = Canvas(width, height)
-        if self.canvas is None:
-            self.canvas = scene.canvas
-        if canvas != self.canvas:
-            warnings.warn(
-                f"{frame.path.name} is {width} x {height} pixels, not {self.canvas.width} x "
-                f"{self.canvas.height} like the scene or the first frame.",
-                LampblackWarning,
-                stacklevel=2,
-            )
-        scene = replace(scene, canvas=canvas)
-        key = digest(picture, scene)
-        earlier = self.lit.get(key)
-        if earlier is not None:
-            save_picture(target, load_picture(earlier))
-            return
-        try:
-            drawing = take_apart(picture, mask=self.mask, ink=self.ink)
-        except NothingDrawnError as error:
-            if self.single:
-                raise
-            warnings.warn(
-                f"{frame.path.name}: {error.what} Passed through unlit.",
-                LampblackWarning,
-                stacklevel=2,
-            )
-            save_picture(target, picture)
-            self.unlit += 1
-            return
-        save_picture(target, self.pipeline.render(drawing, scene))
-        self.lit[key] = target
+def _check_sheet(sheet: Path, opened: OpenOrder, inputs: list[str]) -> None:
+    check_suffix(sheet, ".png")
+    sources = [Path(item) for item in inputs]
+    pictures = [path for item in sources if item.is_dir() for path in item.glob("*.png")]
+    keep_inputs(sheet, [*sources, *pictures])
+    if opened.targets.kind != "png":
+        raise LampblackError("A contact sheet shows PNG frames only.", "Leave out --contact-sheet.")
 
 
-def _prepare_output(output: Path, frames: list[Frame]) -> None:
-    """Refuse, before any work, an output folder that would lose something."""
-    twice = [name for name, n in Counter(f.path.name for f in frames).items() if n > 1]
-    if twice:
-        raise LampblackError(
-            f"Two inputs are named {twice[0]}: one result would replace the other.",
-            "Render them into different folders.",
-        )
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-        folder = output.resolve()
-    except OSError as error:
-        raise LampblackError(
-            f"The output folder {output} cannot be made.", "Choose another.", str(error)
-        ) from error
-    if any(frame.path.resolve().parent == folder for frame in frames):
-        raise LampblackError(
-            f"{output} holds the drawings themselves; they would be replaced.",
-            "Choose another output folder.",
-        )
-
-
-def _write_sheet(path: Path, frames: list[Frame], output: Path) -> None:
+def _write_sheet(path: Path, opened: OpenOrder, outcome: Outcome) -> None:
     """Drawings above, lit below: at most 12 of them, evenly chosen. One stands beside its own."""
+    done = set(outcome.done)
+    frames = [frame for frame in opened.frames if frame in done]
     if not frames:
         return
+
+    def drawn(frame: ShotFrame) -> NDArray[np.uint8]:
+        return opened.shot.finish(frame, opened.shot.cel(frame).pixels)
+
+    def lit(frame: ShotFrame) -> NDArray[np.uint8]:
+        return load_picture(opened.targets.path(frame))
+
     if len(frames) == 1:
-        pair = [load_picture(frames[0].path), load_picture(output / frames[0].path.name)]
-        save_picture(path, contact_sheet([pair], cell=560))
+        save_picture(path, contact_sheet([[drawn(frames[0]), lit(frames[0])]], cell=560))
         return
     chosen = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, 12).round().astype(int))]
-    drawn = [load_picture(frame.path) for frame in chosen]
-    lit = [load_picture(output / frame.path.name) for frame in chosen]
-    rows = range(0, len(chosen), 6)
-    save_picture(path, contact_sheet([r[i : i + 6] for i in rows for r in (drawn, lit)]))
+    rows = [chosen[i : i + 6] for i in range(0, len(chosen), 6)]
+    save_picture(
+        path, contact_sheet([[make(f) for f in row] for row in rows for make in (drawn, lit)])
+    )
 
 
-def _summarise(job: _Job, total: int) -> None:
-    console.print(f"{len(job.done)} of {total} frames are in {job.output}.", markup=False)
-    if job.failed:
-        names = ", ".join(frame.path.name for frame in job.failed)
+def _summarise(opened: OpenOrder, outcome: Outcome) -> None:
+    there = f", {len(outcome.kept)} of them from before" if outcome.kept else ""
+    console.print(
+        f"{len(outcome.done)} of {len(opened.frames)} frames are in "
+        f"{opened.targets.folder}{there}.",
+        markup=False,
+    )
+    if outcome.failed:
+        names = ", ".join(frame.name for frame, _ in outcome.failed)
         console.print(f"Failed: {names}", markup=False, style="bold red")
         raise typer.Exit(EXIT_FAILED)
-    if job.unlit:
+    if outcome.unlit:
         raise typer.Exit(EXIT_UNLIT)

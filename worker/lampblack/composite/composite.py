@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -31,20 +32,47 @@ def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint
     both in sRGB as the drawing program does it. Light of unit irradiance gives the drawing
     back to within 1/255. What is brighter than white clips with its hue kept.
     """
+    lit = np.zeros((*drawing.mask.shape, 4), np.uint8)
+    for band, rgba in _bands(drawing, passes, scene):
+        rounded = np.rint(rgba * 255).astype(np.uint8)
+        # A colour nobody sees is left as the artist left it.
+        lit[band.top : band.bottom] = np.where(
+            rounded[..., 3:] > 0,
+            rounded,
+            drawing.pixels[band.top : band.bottom] * np.array([1, 1, 1, 0], np.uint8),
+        )
+    return lit
+
+
+def composite_unrounded(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.float32]:
+    """The lit drawing before it is rounded, (H, W, 4) float32 sRGB in 0..1, straight alpha."""
+    lit = np.zeros((*drawing.mask.shape, 4), np.float32)
+    for band, rgba in _bands(drawing, passes, scene):
+        lit[band.top : band.bottom] = rgba
+    return lit
+
+
+def weigh(passes: Passes, scene: Scene) -> list[Source]:
+    """The sources that give light, with their colour and strength."""
     weights = [hex_linear(light.colour) * np.float32(light.power) for light in scene.lights]
     weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
-    sources = [
+    return [
         (weight, source)
         for weight, source in zip(weights, (*passes.lights, passes.ambient), strict=True)
         if weight.any()
     ]
+
+
+def _bands(
+    drawing: Drawing, passes: Passes, scene: Scene
+) -> Iterator[tuple[Band, NDArray[np.float32]]]:
+    """Stretches of the lit drawing, (h, W, 4) in 0..1."""
+    sources = weigh(passes, scene)
     width, height = drawing.size
-    lit = np.empty((height, width, 4), np.uint8)  # every band writes its own rows
     rows = max(1, BAND_PIXELS // max(width, 1))
     for top in range(0, height, rows):
         band = Band(width, height, top, min(top + rows, height))
-        lit[top : band.bottom] = _composite_band(_rows(drawing, band), scene, sources, band)
-    return lit
+        yield band, _composite_band(_rows(drawing, band), scene, sources, band)
 
 
 def _rows(drawing: Drawing, band: Band) -> Drawing:
@@ -59,7 +87,7 @@ def _rows(drawing: Drawing, band: Band) -> Drawing:
 
 def _composite_band(
     drawing: Drawing, scene: Scene, sources: list[Source], band: Band
-) -> NDArray[np.uint8]:
+) -> NDArray[np.float32]:
     lit = _lay_ink(drawing, srgb(_lit_fill(drawing, scene, sources, band)))
     drawn = _lay_ink(drawing, drawing.albedo)
 
@@ -78,12 +106,8 @@ def _composite_band(
     if paper.any():
         light, alpha = _lift_off_paper(light, alpha, kept, paper > 0)
     colour = light / np.maximum(alpha, 1e-6)
-    rgba = np.clip(np.concatenate([colour, alpha], axis=2), 0, 1)
-    rounded: NDArray[np.uint8] = np.rint(rgba * 255).astype(np.uint8)
-    # A colour nobody sees is left as the artist left it.
-    return np.where(
-        rounded[..., 3:] > 0, rounded, drawing.pixels * np.array([1, 1, 1, 0], np.uint8)
-    )
+    rgba: NDArray[np.float32] = np.clip(np.concatenate([colour, alpha], axis=2), 0, 1)
+    return rgba
 
 
 def _lift_off_paper(
@@ -109,6 +133,15 @@ def _lit_fill(
     drawing: Drawing, scene: Scene, sources: list[Source], band: Band
 ) -> NDArray[np.float32]:
     """The fill under the lights, scene-linear (H, W, 3), at most 1."""
+    diffuse, glossy, unlit = figure_light(drawing, scene, sources, band)
+    return _roll_off(diffuse + glossy, linear(drawing.albedo)) + unlit
+
+
+def figure_light(
+    drawing: Drawing, scene: Scene, sources: list[Source], band: Band
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Diffuse light, glossy light, and colours left as drawn, of the fill in ``band``;
+    scene-linear (H, W, 3), unbounded."""
     albedo = linear(drawing.albedo)
     materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
     materials.append(scene.default_material)  # label -1: past the edge
@@ -116,13 +149,14 @@ def _lit_fill(
     glossy = np.array([m.glossy for m in materials])[drawing.labels][..., None]
     gloss = np.array([m.gloss for m in materials], np.float32)[drawing.labels][..., None]
 
-    light = _gather(sources, "diffuse", band) if diffuse.any() else np.float32(0)
-    lit = np.where(diffuse, albedo * light, 0)
+    none = np.zeros_like(albedo)
+    lit, shine = none, none
+    if diffuse.any():
+        lit = np.where(diffuse, albedo * _gather(sources, "diffuse", band), none)
     if glossy.any():
         shine = gloss * _gather(sources, "glossy", band)
-        lit = lit + np.where(glossy, np.where(diffuse, shine, albedo * shine), 0)
-    lit = _roll_off(lit, albedo)
-    return np.where(diffuse | glossy, lit, albedo).astype(np.float32)
+        shine = np.where(glossy, np.where(diffuse, shine, albedo * shine), none)
+    return lit, shine, np.where(diffuse | glossy, none, albedo)
 
 
 def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -2,7 +2,7 @@
 
 from .cutout import figure_mask
 from .drawing import Drawing
-from .load import load_picture, save_picture
+from .load import load_picture, read_picture, save_picture
 from .mask import ink_from_picture, mask_from_picture
 from .palette import Palette, Swatch
 from .sequence import Frame, find_frames, parse_frames, select_frames
@@ -19,6 +19,7 @@ __all__ = [
     "load_picture",
     "mask_from_picture",
     "parse_frames",
+    "read_picture",
     "save_picture",
     "select_frames",
     "take_apart",

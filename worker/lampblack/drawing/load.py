@@ -22,14 +22,7 @@ _PLAIN_PNG = "Export it again as a PNG from your drawing program."
 
 
 def load_picture(path: str | Path) -> NDArray[np.uint8]:
-    """Read a PNG of any colour type and depth.
-
-    16-bit samples are brought to 8 bits. The size is judged from the header, before any
-    pixel is decoded, and every chunk's checksum must hold, so that a file cut short is
-    refused rather than shown in part.
-
-    Returns:
-        (H, W, 4) uint8, sRGB, straight alpha, row 0 at the top.
+    """Read a PNG file; see ``read_picture``.
 
     Raises:
         DrawingError: missing, a folder, not a PNG, damaged, or too large.
@@ -37,9 +30,7 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
     path = Path(path)
     try:
         with path.open("rb") as file:
-            depth = _check_header(file, path)
-            _open_png(file).verify()
-            return _decode(_open_png(file), depth)
+            return read_picture(file, str(path))
     except FileNotFoundError as error:
         raise DrawingError(
             f"There is no picture at {path}.", "Check the name and the folder."
@@ -50,11 +41,30 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
         raise DrawingError(
             f"{path} may not be read.", "Check the file's permissions.", str(error)
         ) from error
+
+
+def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
+    """Read a PNG of any colour type and depth; ``name`` is for the errors.
+
+    16-bit samples are brought to 8 bits. The size is judged from the header, before any
+    pixel is decoded, and every chunk's checksum must hold, so that a file cut short is
+    refused rather than shown in part.
+
+    Returns:
+        (H, W, 4) uint8, sRGB, straight alpha, row 0 at the top.
+
+    Raises:
+        DrawingError: not a PNG, damaged, or too large.
+    """
+    try:
+        depth = _check_header(file, name)
+        _open_png(file).verify()
+        return _decode(_open_png(file), depth)
     except (OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
-        raise DrawingError(f"The PNG {path} is damaged.", _PLAIN_PNG, str(error)) from error
+        raise DrawingError(f"The PNG {name} is damaged.", _PLAIN_PNG, str(error)) from error
     except MemoryError as error:
         raise DrawingError(
-            f"There is not enough memory to read {path}.", "Close other programs."
+            f"There is not enough memory to read {name}.", "Close other programs."
         ) from error
 
 
@@ -70,17 +80,17 @@ def save_picture(path: str | Path, picture: NDArray[np.uint8]) -> None:
         Image.fromarray(picture).save(file, "PNG", compress_level=4)
 
 
-def _check_header(file: BinaryIO, path: Path) -> int:
+def _check_header(file: BinaryIO, name: str) -> int:
     """Bits per sample, after the size has been found to be within bounds."""
     header = file.read(29)
     if header[:8] != _SIGNATURE:
-        raise DrawingError(f"{path} is not a PNG picture.", _PLAIN_PNG)
+        raise DrawingError(f"{name} is not a PNG picture.", _PLAIN_PNG)
     if len(header) < 29 or header[12:16] != b"IHDR":
-        raise DrawingError(f"The PNG {path} is damaged.", _PLAIN_PNG)
+        raise DrawingError(f"The PNG {name} is damaged.", _PLAIN_PNG)
     width, height, depth = struct.unpack(">IIB", header[16:25])
     if width > MAX_SIDE or height > MAX_SIDE or width * height > MAX_PIXELS:
         raise DrawingError(
-            f"The picture {path} is {width} x {height} pixels, which is too large.",
+            f"The picture {name} is {width} x {height} pixels, which is too large.",
             f"At most {MAX_SIDE} a side and {MAX_PIXELS // 1_000_000} megapixels are read.",
         )
     return int(depth)

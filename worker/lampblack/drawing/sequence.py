@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol, TypeVar
 
 from ..errors import DrawingError, LampblackWarning
 
@@ -15,6 +16,17 @@ MAX_FRAMES = 100_000
 _NUMBER = re.compile(r"(\d+)(?=\.png$)", re.IGNORECASE)
 _PATTERN = re.compile(r"%0?(\d*)d")
 _RANGE = re.compile(r"(\d{1,9})(?:-(\d{1,9})(?:x(\d{1,9}))?)?")
+
+
+class HasNumber(Protocol):
+    """A frame of any kind."""
+
+    @property
+    def number(self) -> int | None:
+        """None where frames are not numbered."""
+
+
+Numbered = TypeVar("Numbered", bound=HasNumber)
 
 
 @dataclass(frozen=True)
@@ -77,7 +89,7 @@ def parse_frames(text: str) -> list[int]:
     return sorted(numbers)
 
 
-def select_frames(frames: Sequence[Frame], numbers: Collection[int]) -> list[Frame]:
+def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[Numbered]:
     """The frames whose number is in ``numbers``, in their own order.
 
     Raises:

@@ -127,7 +127,7 @@ class Jobs:
             with self._condition:
                 self._current = None
             if not self._waiting:
-                self.pipeline.child.close()  # a renderer of finals holds much memory
+                self.pipeline.rest()  # a renderer of finals holds much memory
             self.studio.update(job_state="off" if self.pipeline.child.pid is None else "idle")
         self.pipeline.__exit__(None, None, None)
 

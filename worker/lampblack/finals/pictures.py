@@ -1,0 +1,58 @@
+"""A shot of picture files, each its own cel and nothing around it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..cache import digest
+from ..camera import IDENTITY, Affine
+from ..drawing import Frame, load_picture
+from ..scene import Canvas, Scene
+from .shot import Cel, Picture, ShotFrame
+
+Sample = TypeVar("Sample", np.uint8, np.float32)
+
+
+@dataclass
+class PictureShot:
+    """PNG files; ``mask`` and ``ink`` hold for all of them."""
+
+    sources: Sequence[Frame]
+    mask: Picture | None = None
+    ink: Picture | None = None
+    frames: Sequence[ShotFrame] = field(init=False)
+    canvas: Canvas | None = field(init=False, default=None)
+
+    def __post_init__(self) -> None:
+        self._paths = {source.path.name: source.path for source in self.sources}
+        given = digest(self.mask, self.ink)
+        self.frames = [
+            ShotFrame(source.number, source.path.name, digest(given, _content(source.path)))
+            for source in self.sources
+        ]
+
+    def cel(self, frame: ShotFrame) -> Cel:
+        return Cel(load_picture(self._paths[frame.name]), self.mask, self.ink)
+
+    def place(self, scene: Scene, size: tuple[int, int]) -> Scene:
+        return replace(scene, canvas=Canvas(*size))
+
+    def camera(self, frame: ShotFrame) -> Affine:
+        return IDENTITY
+
+    def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
+        return lit
+
+
+def _content(path: Path) -> bytes:
+    """The file's bytes; of one that cannot be read, its name: reading it will tell."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return bytes(path)

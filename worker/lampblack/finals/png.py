@@ -1,0 +1,40 @@
+"""PNG finals: 8-bit sRGB with straight alpha, stamped with what they were made from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from ..atomic import atomic_file
+from ..drawing import load_picture
+from ..errors import LampblackError
+
+STAMP = "Lampblack"
+
+
+def save_png(path: Path, picture: NDArray[np.uint8], stamp: str) -> None:
+    """Write (H, W, 4) uint8; the file appears whole or not at all.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    text = PngInfo()
+    text.add_text(STAMP, stamp)
+    with atomic_file(path) as file:
+        Image.fromarray(picture).save(file, "PNG", compress_level=4, pnginfo=text)
+
+
+def png_stamp(path: Path) -> str | None:
+    """The stamp of a PNG that is whole; None for anything else."""
+    try:
+        with Image.open(path, formats=("PNG",)) as image:
+            stamp = image.info.get(STAMP)
+        if stamp is not None:
+            load_picture(path)
+        return stamp if isinstance(stamp, str) else None
+    except (OSError, ValueError, SyntaxError, LampblackError):
+        return None

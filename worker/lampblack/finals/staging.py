@@ -1,0 +1,100 @@
+"""From a scene file and options to the scene that each drawing is lit in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from ..errors import SceneError
+from ..scene import (
+    MAX_LIGHTS,
+    AreaLight,
+    Canvas,
+    Floor,
+    Scene,
+    decode_scene,
+    default_light,
+    default_scene,
+)
+
+QualityLevel = Literal["low", "medium", "final"]
+
+
+@dataclass(frozen=True)
+class Staging:
+    """What was asked for: the file's scene or the default one, with parts put in their place.
+
+    Attributes:
+        lights: ``X,Y,Z`` each, instead of the scene's.
+        floor: its canvas line. quality: one of the presets.
+    """
+
+    read: Scene | None = None
+    lights: Sequence[str] = ()
+    floor: float | None = None
+    quality: QualityLevel | None = None
+
+    def __post_init__(self) -> None:
+        lights_at(self.lights, Canvas(1, 1))  # what is mistyped is told before any work
+        if self.floor is not None:
+            floor_at(self.floor)
+
+    def scene(self, canvas: Canvas) -> Scene:
+        """The scene for drawings on ``canvas``."""
+        staged = self.read or default_scene(canvas.width, canvas.height)
+        if self.lights:
+            staged = replace(staged, lights=lights_at(self.lights, canvas))
+        if self.floor is not None:
+            staged = replace(staged, floor=floor_at(self.floor))
+        return staged if self.quality is None else replace(staged, quality=self.quality)
+
+
+def read_scene(path: Path) -> Scene:
+    """Load a scene file.
+
+    Raises:
+        SceneError: it cannot be read, or is no scene.
+    """
+    try:
+        return decode_scene(path.read_bytes())
+    except OSError as error:
+        raise SceneError(
+            f"The scene {path} cannot be read.", "Write one: lampblack scene.", str(error)
+        ) from error
+
+
+def parse_light(text: str) -> tuple[float, float, float]:
+    """``X,Y,Z`` in canvas pixels.
+
+    Raises:
+        SceneError: not three finite numbers within a canvas's reach.
+    """
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        raise SceneError(
+            f"{text!r} is not a light.", "Write it as X,Y,Z in pixels: --light 250,150,400."
+        ) from None
+    if not all(abs(value) <= 1e5 for value in (x, y, z)):
+        raise SceneError(f"The light {text!r} is out of range.", "Stay within 100000 pixels.")
+    return x, y, z
+
+
+def lights_at(texts: Sequence[str], canvas: Canvas) -> tuple[AreaLight, ...]:
+    """A default light at each ``X,Y,Z``."""
+    if len(texts) > MAX_LIGHTS:
+        raise SceneError(f"{len(texts)} lights were named; {MAX_LIGHTS} is the most.")
+    return tuple(default_light(canvas, *parse_light(text)) for text in texts)
+
+
+def floor_at(line: float) -> Floor:
+    """The default floor at this canvas line.
+
+    Raises:
+        SceneError: not finite, or beyond a canvas's reach.
+    """
+    if not abs(line) <= 1e5:
+        raise SceneError(f"The floor {line} is out of range.", "Stay within 100000 pixels.")
+    return Floor(line)

@@ -1,0 +1,116 @@
+"""Where the frames of a shot are written, and whether they are there already."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal, get_args
+
+from ..errors import LampblackError
+from .exr import exr_stamp
+from .png import png_stamp
+from .shot import ShotFrame
+
+Kind = Literal["png", "exr"]
+
+_NUMBER = re.compile(r"%0?(\d?)d|#+")
+
+
+class Targets:
+    """Names for frames, from a folder (frames keep their names) or a pattern: ``out/a.%04d.png``,
+    ``out/a####.exr``, or one plain file name for one frame.
+
+    Args:
+        output: as it was named.
+        kind: of the files; None goes by the pattern's suffix, else PNG.
+
+    Raises:
+        LampblackError: the pattern's suffix is of no kind that can be written, or not ``kind``.
+    """
+
+    def __init__(self, output: str, kind: Kind | None = None) -> None:
+        self._path = Path(output)
+        number = list(_NUMBER.finditer(self._path.name))
+        suffix = self._path.suffix.lower().removeprefix(".")
+        named = suffix in get_args(Kind) and not self._path.is_dir()
+        if number and not named:
+            raise LampblackError(
+                f"{output} is of no kind that can be written here.",
+                "Name a folder, or files that end in .png or .exr.",
+            )
+        if len(number) > 1:
+            raise LampblackError(f"{output} has two places for the number.", "Leave one.")
+        if named and kind is not None and kind != suffix:
+            raise LampblackError(
+                f"{output} ends in .{suffix}, but --format says {kind}.", "Leave one of them out."
+            )
+        self.kind: Kind = "exr" if "exr" in (kind, suffix if named else None) else "png"
+        self._number = number[0] if number else None
+        self._named = named
+
+    @property
+    def folder(self) -> Path:
+        """Where all the files go."""
+        return self._path.parent if self._named else self._path
+
+    def path(self, frame: ShotFrame) -> Path:
+        """The file of ``frame``."""
+        if not self._named:
+            return self._path / Path(frame.name).with_suffix(f".{self.kind}")
+        if self._number is None:
+            return self._path
+        found, name = self._number, self._path.name
+        width = int(found[1] or 1) if found[0].startswith("%") else len(found[0])
+        assert frame.number is not None
+        return self._path.with_name(
+            f"{name[: found.start()]}{frame.number:0{width}d}{name[found.end() :]}"
+        )
+
+    def prepare(self, frames: Sequence[ShotFrame], sources: Sequence[Path]) -> None:
+        """Make the folder; refuse, before any work, what would lose something.
+
+        Raises:
+            LampblackError: two frames would share a file, a source would be replaced, or the
+                folder cannot be made.
+        """
+        if self._number is not None and any(frame.number is None for frame in frames):
+            raise LampblackError(
+                "The inputs have no numbers to put into the pattern.", "Name an output folder."
+            )
+        if self._named and self._number is None and len(frames) > 1:
+            raise LampblackError(
+                f"{len(frames)} frames cannot all be written to {self._path}.",
+                f"Put a number into its name: {self._path.stem}.%04d{self._path.suffix}.",
+            )
+        twice = [name for name, n in Counter(self.path(f).name for f in frames).items() if n > 1]
+        if twice:
+            raise LampblackError(
+                f"Two inputs are named {twice[0]}: one result would replace the other.",
+                "Render them into different folders.",
+            )
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            folder = self.folder.resolve()
+        except OSError as error:
+            raise LampblackError(
+                f"The output folder {self.folder} cannot be made.", "Choose another.", str(error)
+            ) from error
+        beside = {source.resolve() for source in sources if source.resolve().parent == folder}
+        if not self._named and any(path.suffix.lower() == ".png" for path in beside):
+            raise LampblackError(
+                f"{self.folder} holds the drawings themselves; they would be replaced.",
+                "Choose another output folder.",
+            )
+        for frame in frames:
+            if self.path(frame).resolve() in beside:
+                raise LampblackError(
+                    f"{self.path(frame)} is one of the inputs; it would be lost.",
+                    "Choose another output.",
+                )
+
+    def holds(self, frame: ShotFrame, stamp: str) -> bool:
+        """Whether the file of ``frame`` is there, whole, and was made from what ``stamp`` names."""
+        read = exr_stamp if self.kind == "exr" else png_stamp
+        return read(self.path(frame)) == stamp

@@ -1,0 +1,142 @@
+"""The files inside a project: a zip (``.pclx``), or a folder beside its XML (``.pcl``).
+
+Nothing is unpacked. Names, sizes and counts come from a stranger: every one is bounded.
+"""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Protocol
+
+from ..errors import ProjectError
+
+SUFFIXES = (".pclx", ".pcl")
+MAX_XML_BYTES = 16 << 20
+MAX_FILE_BYTES = 128 << 20
+MAX_ENTRIES = 200_000
+
+
+class Archive(Protocol):
+    """Reads the files of one project."""
+
+    path: Path
+
+    def xml(self) -> bytes:
+        """The project's description."""
+
+    def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
+        """A file of the data folder.
+
+        Raises:
+            ProjectError: its name leads elsewhere, it is not there, damaged or too large.
+        """
+
+
+def is_project(path: str | Path) -> bool:
+    """Whether ``path`` is named like a Pencil2D project."""
+    return Path(path).suffix.lower() in SUFFIXES
+
+
+def open_archive(path: Path) -> Archive:
+    """Open a project's files.
+
+    Raises:
+        ProjectError: there is none, or it is no project.
+    """
+    if not path.is_file():
+        raise ProjectError(f"There is no project at {path}.", "Check the name and the folder.")
+    return _Zipped(path) if path.suffix.lower() == ".pclx" else _Folder(path)
+
+
+class _Zipped:
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self._zip = zipfile.ZipFile(path)
+        except (zipfile.BadZipFile, OSError, ValueError, UnicodeDecodeError) as error:
+            raise ProjectError(
+                f"{path} is not a Pencil2D project.", "Save it again in Pencil2D.", str(error)
+            ) from error
+        if len(self._zip.namelist()) > MAX_ENTRIES:
+            raise ProjectError(f"{path} holds more than {MAX_ENTRIES} files.")
+
+    def xml(self) -> bytes:
+        return self._read("main.xml", MAX_XML_BYTES)
+
+    def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
+        _check_name(name)
+        return self._read(f"data/{name}", limit)
+
+    def _read(self, name: str, limit: int) -> bytes:
+        try:
+            with self._zip.open(name) as file:
+                # What the directory says of the size is not believed.
+                data = file.read(limit + 1)
+        except KeyError as error:
+            raise _missing(self.path, name) from error
+        except (
+            zipfile.BadZipFile, zlib.error, OSError, EOFError, RuntimeError, NotImplementedError,
+        ) as error:  # fmt: skip
+            raise ProjectError(
+                f"{name} in {self.path.name} is damaged.",
+                "Restore the project from a backup.",
+                str(error),
+            ) from error
+        return _within(data, name, limit)
+
+
+class _Folder:
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._data = path.with_name(f"{path.name}.data")
+
+    def xml(self) -> bytes:
+        return self._read(self.path, MAX_XML_BYTES)
+
+    def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
+        _check_name(name)
+        path = self._data / name
+        if path.is_file() and not path.resolve().is_relative_to(self._data.resolve()):
+            raise _strays(name)
+        return self._read(path, limit)
+
+    def _read(self, path: Path, limit: int) -> bytes:
+        try:
+            with path.open("rb") as file:
+                return _within(file.read(limit + 1), path.name, limit)
+        except FileNotFoundError as error:
+            raise _missing(self.path, f"{self._data.name}/{path.name}") from error
+        except OSError as error:
+            raise ProjectError(
+                f"{path} could not be read.", "Check its permissions.", str(error)
+            ) from error
+
+
+def _check_name(name: str) -> None:
+    """Keyframes lie in one folder: a name with a way in it is no work of Pencil2D."""
+    if not name or len(name) > 255 or name in (".", "..") or set(name) & set("/\\:\0"):
+        raise _strays(name)
+
+
+def _strays(name: str) -> ProjectError:
+    return ProjectError(
+        "The project names a file outside its own folder; nothing was read from there.",
+        "Do not trust this project: ask whoever made it.",
+        repr(name[:200]),
+    )
+
+
+def _missing(project: Path, name: str) -> ProjectError:
+    return ProjectError(
+        f"{project.name} has no {name}.", "Restore the project from a backup, or redraw the frame."
+    )
+
+
+def _within(data: bytes, name: str, limit: int) -> bytes:
+    if len(data) > limit:
+        raise ProjectError(
+            f"{name} in the project is larger than {limit >> 20} MiB.", "Check the project."
+        )
+    return data

@@ -1,0 +1,139 @@
+"""What a Pencil2D project says: its layers, their keyframes, and its camera.
+
+Pencil2D's own frame of reference: x right, y *down*, its origin where the centre of an unmoved
+camera looks. Frames count from 1; a keyframe holds until the next.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+from ..camera import Affine
+
+Kind = Literal["bitmap", "vector"]
+
+
+@dataclass(frozen=True)
+class Key:
+    """A drawing on a layer.
+
+    Attributes:
+        file: its name in the project's data folder.
+        left, top: of a bitmap, where its corner lies.
+        opacity: 0 to 1.
+    """
+
+    frame: int
+    file: str
+    left: int = 0
+    top: int = 0
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of drawings; ``keys`` by frame. Hidden layers are not shown."""
+
+    number: int
+    name: str
+    kind: Kind
+    visible: bool
+    keys: tuple[Key, ...]
+
+    def key_at(self, frame: int) -> Key | None:
+        """The drawing that ``frame`` shows; None before the first."""
+        return _held(self.keys, frame)
+
+
+@dataclass(frozen=True)
+class CameraKey:
+    """Where the camera is at a frame: drawings are moved by (dx, dy), turned by ``turn``
+    degrees (clockwise) and then scaled, all about the picture's centre."""
+
+    frame: int
+    dx: float = 0.0
+    dy: float = 0.0
+    turn: float = 0.0
+    scale: float = 1.0
+
+    @property
+    def matrix(self) -> Affine:
+        """From Pencil2D's frame to the picture's, both with their origins at the centre."""
+        cos = self.scale * math.cos(math.radians(self.turn))
+        sin = self.scale * math.sin(math.radians(self.turn))
+        if self.turn % 360 == 0:
+            cos, sin = self.scale, 0.0
+        return (
+            cos, -sin, cos * self.dx - sin * self.dy,
+            sin, cos, sin * self.dx + cos * self.dy,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Camera:
+    """What is seen: ``width`` x ``height`` pixels."""
+
+    name: str
+    width: int
+    height: int
+    keys: tuple[CameraKey, ...]
+
+    def at(self, frame: int) -> Affine:
+        """Canvas to picture at ``frame``: the canvas is the picture of an unmoved camera.
+
+        Between two keys the matrices are mixed evenly, as Pencil2D 0.6 does it.
+        """
+        across, down = self.width // 2, self.height // 2
+        a, b, c, d, e, f = self._matrix(frame)
+        # The centres of canvas and picture are both Pencil2D's origin.
+        return (
+            a, b, c + across - a * across - b * down,
+            d, e, f + down - d * across - e * down,
+        )  # fmt: skip
+
+    def _matrix(self, frame: int) -> Affine:
+        before = _held(self.keys, frame)
+        if before is None:
+            return self.keys[0].matrix if self.keys else CameraKey(1).matrix
+        after = next((key for key in self.keys if key.frame > frame), before)
+        if after is before or before == CameraKey(before.frame, *_place(after)):
+            return before.matrix
+        share = (frame - before.frame) / (after.frame - before.frame)
+        mixed = [
+            (1 - share) * one + share * other
+            for one, other in zip(before.matrix, after.matrix, strict=True)
+        ]
+        return (mixed[0], mixed[1], mixed[2], mixed[3], mixed[4], mixed[5])
+
+
+@dataclass(frozen=True)
+class Project:
+    """A project as described, pictures apart.
+
+    Attributes:
+        layers: of drawings, bottom first.
+        cameras: in the project's order.
+        length: the last frame.
+        fps: frames per second.
+    """
+
+    layers: tuple[Layer, ...]
+    cameras: tuple[Camera, ...]
+    length: int
+    fps: int
+
+
+_Keyed = TypeVar("_Keyed", Key, CameraKey)
+
+
+def _held(keys: Sequence[_Keyed], frame: int) -> _Keyed | None:
+    index = bisect_right(keys, frame, key=lambda key: key.frame)
+    return keys[index - 1] if index else None
+
+
+def _place(key: CameraKey) -> tuple[float, float, float, float]:
+    return key.dx, key.dy, key.turn, key.scale

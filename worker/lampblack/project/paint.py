@@ -1,0 +1,103 @@
+"""Layers painted over each other, on a stretch of the canvas."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from ..cache import digest
+from ..drawing import read_picture
+from ..errors import DrawingError, ProjectError
+from .archive import Archive
+from .document import Key, Layer
+from .vector import PALETTE, VectorPictures
+
+Picture = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Region:
+    """A stretch of the canvas, canvas pixels; it may begin before the canvas does."""
+
+    left: int
+    top: int
+    width: int
+    height: int
+
+
+@dataclass
+class LayerPainter:
+    """Paints the layers of one project.
+
+    Args:
+        region: what of the canvas is painted.
+        origin: Pencil2D's origin, (x, y) canvas pixels.
+        vectors: draws the vector layers.
+    """
+
+    archive: Archive
+    region: Region
+    origin: tuple[int, int]
+    vectors: VectorPictures
+    _digests: dict[str, str] = field(default_factory=dict)
+
+    def paint(self, layers: Sequence[Layer], frame: int) -> Picture:
+        """(H, W, 4) uint8 sRGB, straight alpha: what ``layers``, bottom first, show at ``frame``.
+
+        Raises:
+            ProjectError: a picture is missing or damaged.
+        """
+        region = self.region
+        canvas = Image.new("RGBA", (region.width, region.height))
+        for layer in layers:
+            key = layer.key_at(frame)
+            if key is not None:
+                self._lay(canvas, layer, key)
+        return np.array(canvas)
+
+    def fingerprint(self, layers: Sequence[Layer], frame: int) -> str:
+        """A name for what ``paint`` would give; the same for frames that show the same."""
+        shown: list[object] = [self.region, self.origin]
+        for layer in layers:
+            key = layer.key_at(frame)
+            if key is not None:
+                shown += [layer.kind, key.left, key.top, key.opacity, self._digest(key.file)]
+                if layer.kind == "vector":
+                    shown.append(self._digest(PALETTE))
+        return digest(*shown)
+
+    def _lay(self, canvas: Image.Image, layer: Layer, key: Key) -> None:
+        try:
+            if layer.kind == "vector":
+                picture, left, top = self.vectors.picture(layer, key, self.region), 0, 0
+            else:
+                name = f"{key.file} of frame {key.frame} on layer {layer.name!r}"
+                picture = read_picture(io.BytesIO(self.archive.read(key.file)), name)
+                left = key.left + self.origin[0] - self.region.left
+                top = key.top + self.origin[1] - self.region.top
+        except ProjectError:
+            raise
+        except DrawingError as error:
+            raise ProjectError(error.what, error.remedy, error.details) from error
+        # Only what lies within: a picture may be placed anywhere.
+        picture = picture[max(0, -top) :, max(0, -left) :]
+        picture = picture[: max(0, canvas.height - top), : max(0, canvas.width - left)]
+        if not picture.size:
+            return
+        if key.opacity < 1:
+            picture = picture.copy()
+            picture[..., 3] = np.rint(picture[..., 3] * key.opacity)
+        canvas.alpha_composite(Image.fromarray(picture), (max(0, left), max(0, top)))
+
+    def _digest(self, name: str) -> str:
+        if name not in self._digests:
+            try:
+                self._digests[name] = digest(self.archive.read(name))
+            except ProjectError as error:  # told when the frame is made
+                self._digests[name] = digest(name, str(error))
+        return self._digests[name]

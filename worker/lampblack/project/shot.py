@@ -1,0 +1,160 @@
+"""A project as a shot: its lit layers are the cels, the others surround them.
+
+Cels are painted on the canvas, not through the camera: a drawing that is held while the camera
+moves is lit once, and its light does not swim.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..camera import Affine, look_through, scene_in_view
+from ..drawing.load import MAX_PIXELS, MAX_SIDE
+from ..errors import ProjectError
+from ..finals.shot import Cel, ShotFrame
+from ..scene import Canvas, Scene
+from .archive import Archive
+from .document import Camera, Project
+from .paint import LayerPainter, Picture, Region
+from .stack import Roles, stack_layers
+from .vector import VectorPictures
+
+Sample = TypeVar("Sample", np.uint8, np.float32)
+
+
+class ProjectShot:
+    """The frames of a project through one of its cameras.
+
+    Args:
+        roles: what layers are, by name; see ``stack_layers``.
+        camera: its name; None is the first.
+
+    Raises:
+        ProjectError: nothing to light, no such camera, or one that sees too much.
+    """
+
+    def __init__(
+        self, project: Project, archive: Archive, roles: Roles, camera: str | None = None
+    ) -> None:
+        self._camera = _choose(project, camera)
+        self.canvas = Canvas(self._camera.width, self._camera.height)
+        self._stack = stack_layers(project, roles)
+        self.region = _region(self._camera, project.length)
+        origin = self._camera.width // 2, self._camera.height // 2
+        self._painter = LayerPainter(archive, self.region, origin, VectorPictures(archive, origin))
+        stem = Path(archive.path).stem
+        self.frames: Sequence[ShotFrame] = [
+            self._frame(number, stem) for number in range(1, project.length + 1)
+        ]
+
+    def _frame(self, number: int, stem: str) -> ShotFrame:
+        stack, paint = self._stack, self._painter
+        around = [paint.fingerprint(layers, number) for layers in (stack.below, stack.above)]
+        lit = [paint.fingerprint(layers, number) for layers in (stack.lit, stack.line)]
+        return ShotFrame(
+            number,
+            f"{stem}.{number:04d}.png",
+            " ".join(lit),
+            f"{around} {self._through(number)} {self.canvas}",
+        )
+
+    def cel(self, frame: ShotFrame) -> Cel:
+        number = _number(frame)
+        pixels = self._painter.paint(self._stack.lit, number)
+        line = self._painter.paint(self._stack.line, number) if self._stack.line else None
+        return Cel(pixels, ink=line if line is not None and line[..., 3].any() else None)
+
+    def place(self, scene: Scene, size: tuple[int, int]) -> Scene:
+        scene = replace(scene, canvas=self.canvas)
+        if self.region == Region(0, 0, self.canvas.width, self.canvas.height):
+            return scene
+        left, top = self.region.left, self.region.top
+        return scene_in_view(scene, (1.0, 0.0, -left, 0.0, 1.0, -top), size)
+
+    def camera(self, frame: ShotFrame) -> Affine:
+        return self._through(_number(frame))
+
+    def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
+        """As Pencil2D lays layers over each other; where there are none and the camera does not
+        turn or scale, the lit cel itself."""
+        number = _number(frame)
+        below = self._painter.paint(self._stack.below, number) if self._stack.below else None
+        above = self._painter.paint(self._stack.above, number) if self._stack.above else None
+        camera = self.camera(frame)
+        size = self.canvas.width, self.canvas.height
+        if below is None and above is None and camera[:2] + camera[3:5] == (1.0, 0.0, 0.0, 1.0):
+            return look_through(lit, camera, size)
+        laid = _light(lit)
+        if below is not None:
+            laid = _over(laid, _light(below))
+        if above is not None:
+            laid = _over(_light(above), laid)
+        seen = _straight(look_through(laid, camera, size))
+        return (np.rint(seen * 255) if lit.dtype == np.uint8 else seen).astype(lit.dtype)
+
+    def _through(self, number: int) -> Affine:
+        """The region's pixels to the picture's."""
+        a, b, c, d, e, f = self._camera.at(number)
+        left, top = self.region.left, self.region.top
+        return a, b, c + a * left + b * top, d, e, f + d * left + e * top
+
+
+def _choose(project: Project, name: str | None) -> Camera:
+    for camera in project.cameras:
+        if name in (None, camera.name):
+            return camera
+    raise ProjectError(
+        f"The project has no camera {name!r}.",
+        f"It has {', '.join(repr(camera.name) for camera in project.cameras)}.",
+    )
+
+
+def _region(camera: Camera, length: int) -> Region:
+    """All of the canvas that the camera sees in any frame."""
+    low, high = np.full(2, math.inf), np.full(2, -math.inf)
+    corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * [camera.width, camera.height]
+    for matrix in {camera.at(number) for number in range(1, length + 1)}:
+        a, b, c, d, e, f = matrix
+        if abs(a * e - b * d) < 1e-6:
+            raise ProjectError("The camera flattens a frame to nothing.", "Move its keys apart.")
+        seen = (corners - [c, f]) @ np.linalg.inv(np.array([[a, b], [d, e]])).T
+        low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
+    (left, top), (right, bottom) = np.floor(low + 1e-6), np.ceil(high - 1e-6)
+    width, height = int(right - left), int(bottom - top)
+    if max(width, height) > MAX_SIDE or width * height > MAX_PIXELS:
+        raise ProjectError(
+            f"The camera sees {width} x {height} pixels of the canvas over all frames.",
+            f"At most {MAX_PIXELS // 1_000_000} megapixels are lit: move the camera less, or "
+            "render parts of the project under cameras of their own.",
+        )
+    return Region(int(left), int(top), width, height)
+
+
+def _number(frame: ShotFrame) -> int:
+    assert frame.number is not None
+    return frame.number
+
+
+def _light(picture: Picture | NDArray[np.float32]) -> NDArray[np.float32]:
+    """(H, W, 4) straight, bytes or 0 to 1, to premultiplied 0 to 1."""
+    most = 255 if picture.dtype == np.uint8 else 1
+    laid = np.divide(picture, most, dtype=np.float32)
+    laid[..., :3] *= laid[..., 3:]
+    return laid
+
+
+def _over(top: NDArray[np.float32], bottom: NDArray[np.float32]) -> NDArray[np.float32]:
+    return top + (1 - top[..., 3:]) * bottom
+
+
+def _straight(laid: NDArray[np.float32]) -> NDArray[np.float32]:
+    colour = laid[..., :3] / np.maximum(laid[..., 3:], 1e-6)
+    picture: NDArray[np.float32] = np.concatenate([colour, laid[..., 3:]], axis=2)
+    return np.clip(picture, 0, 1)

@@ -1,0 +1,128 @@
+"""Vector layers, drawn by the Pencil2D that is installed: nothing else draws them alike."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+import zipfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..drawing import load_picture
+from ..errors import ProjectError
+from .archive import Archive
+from .document import Key, Layer
+
+if TYPE_CHECKING:
+    from .paint import Region
+
+PROGRAM = "pencil2d"
+PALETTE = "palette.xml"
+SECONDS = 600
+KEPT_VARIABLES = ("PATH", "LANG")
+
+
+@dataclass
+class VectorPictures:
+    """Exports a layer's drawings when the first of them is wanted.
+
+    Args:
+        origin: Pencil2D's origin, (x, y) canvas pixels.
+    """
+
+    archive: Archive
+    origin: tuple[int, int]
+    _folder: tempfile.TemporaryDirectory[str] = field(
+        default_factory=lambda: tempfile.TemporaryDirectory(prefix="lampblack-vector-")
+    )
+    _exported: dict[tuple[int, int], Path] = field(default_factory=dict)
+
+    def picture(self, layer: Layer, key: Key, region: Region) -> NDArray[np.uint8]:
+        """(H, W, 4) uint8, straight alpha: a drawing of a vector layer, as it lies in ``region``.
+
+        Raises:
+            ProjectError: there is no Pencil2D, or it cannot draw this.
+        """
+        if (layer.number, key.frame) not in self._exported:
+            self._export(layer, region)
+        return load_picture(self._exported[layer.number, key.frame])
+
+    def _export(self, layer: Layer, region: Region) -> None:
+        """Have Pencil2D draw every keyframe, one a frame, under a camera that sees ``region``."""
+        program = shutil.which(PROGRAM)
+        if program is None:
+            raise ProjectError(
+                f"The layer {layer.name!r} is drawn in vectors, which takes Pencil2D to draw.",
+                "Install it (on Debian: apt-get install pencil2d), or leave the layer out: "
+                f'--background "{layer.name}", or hide it.',
+            )
+        folder = Path(self._folder.name) / str(len(self._exported))
+        folder.mkdir()
+        project = folder / "layer.pclx"
+        with zipfile.ZipFile(project, "w") as archive:
+            for number, key in enumerate(layer.keys, start=1):
+                archive.writestr(f"data/{number}.vec", self.archive.read(key.file))
+            archive.writestr(f"data/{PALETTE}", self.archive.read(PALETTE))
+            archive.writestr("main.xml", self._document(layer, region))
+        self._run(program, project, folder / "frame.png", len(layer.keys))
+        for number, key in enumerate(layer.keys, start=1):
+            drawn = folder / f"frame{number:04d}.png"
+            if not drawn.exists():
+                raise ProjectError(
+                    f"Pencil2D did not draw frame {key.frame} of the layer {layer.name!r}.",
+                    "Open the project in Pencil2D and check the layer.",
+                )
+            self._exported[layer.number, key.frame] = drawn
+
+    def _document(self, layer: Layer, region: Region) -> bytes:
+        document = ElementTree.Element("document")
+        layers = ElementTree.SubElement(document, "object")
+        camera = ElementTree.SubElement(
+            layers, "layer", id="1", type="5", name="Camera", visibility="1",
+            width=str(region.width), height=str(region.height),
+        )  # fmt: skip
+        dx = self.origin[0] - region.left - region.width // 2
+        dy = self.origin[1] - region.top - region.height // 2
+        ElementTree.SubElement(camera, "camera", frame="1", r="0", s="1", dx=str(dx), dy=str(dy))
+        drawings = ElementTree.SubElement(
+            layers, "layer", id="2", type="2", name="drawings", visibility="1"
+        )
+        for number in range(1, len(layer.keys) + 1):
+            ElementTree.SubElement(drawings, "image", frame=str(number), src=f"{number}.vec")
+        text: bytes = ElementTree.tostring(document, "utf-8")
+        return b"<!DOCTYPE PencilDocument>\n" + text
+
+    def _run(self, program: str, project: Path, output: Path, frames: int) -> None:
+        """With a home of its own, so that no settings and no other Pencil2D come in between."""
+        home = project.parent / "home"
+        home.mkdir()
+        own = {name: str(home) for name in ("HOME", "TMPDIR", "XDG_RUNTIME_DIR")}
+        kept = {name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ}
+        home.chmod(0o700)
+        try:
+            done = subprocess.run(
+                [program, str(project), "-o", str(output), "--start", "1", "--end", str(frames),
+                 "--transparency"],
+                env={**kept, **own, "QT_QPA_PLATFORM": "offscreen"},
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                timeout=SECONDS,
+                check=False,
+            )  # fmt: skip
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise ProjectError(
+                "Pencil2D could not draw the vector layers.", "Try again.", str(error)
+            ) from error
+        if done.returncode:
+            raise ProjectError(
+                "Pencil2D could not draw the vector layers.",
+                "Open the project in Pencil2D and check them.",
+                done.stderr.decode(errors="replace")[-400:],
+            )
