@@ -10,8 +10,6 @@ namespace lampblack
 namespace
 {
 
-constexpr int KibibytesKept = 512 * 1024;
-
 int kibibytes(const QImage& image)
 {
     return static_cast<int>(image.sizeInBytes() / 1024) + 1;
@@ -19,7 +17,8 @@ int kibibytes(const QImage& image)
 
 } // namespace
 
-FrameBook::FrameBook(QObject* parent) : QObject(parent), mDrawings(KibibytesKept)
+FrameBook::FrameBook(qint64 bytesKept, QObject* parent)
+    : QObject(parent), mDrawings(static_cast<int>(bytesKept / 1024))
 {
     mHashing.setMaxThreadCount(1); // in order, and one core is enough
 }

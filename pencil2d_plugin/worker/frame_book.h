@@ -26,7 +26,7 @@ class FrameBook : public QObject
     Q_OBJECT
 
 public:
-    explicit FrameBook(QObject* parent = nullptr);
+    explicit FrameBook(qint64 bytesKept = 512LL << 20, QObject* parent = nullptr);
     ~FrameBook() override;
 
     /// Returns the number of this call, for isSettled(). Until its digest is known the frame shows what it
@@ -36,7 +36,7 @@ public:
     void clear();
 
     const QMap<int, ShownFrame>& frames() const { return mFrames; }
-    /// Null if the drawing was never put, or let go: 512 MiB are kept, those least lately used go first.
+    /// Null if the drawing was never put, or let go: those least lately used go first.
     QImage drawing(const QByteArray& digest);
 
     quint64 lastPut() const { return mLastPut; }

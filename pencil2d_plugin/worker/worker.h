@@ -73,6 +73,9 @@ public:
     /// Latest wins. Safe to call at any rate: what the worker cannot follow is passed over.
     virtual void setScene(const Scene& scene) = 0;
 
+    /// Of the scene last sent; images tell theirs.
+    virtual quint64 revision() const = 0;
+
     /// Whether a picture kept from before still shows its frame's drawing under the scene as it is.
     virtual bool isCurrent(const LookImage& image) const = 0;
 

@@ -210,7 +210,14 @@ void WorkerProcess::dispose()
         connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), process,
                 &QObject::deleteLater);
         QTimer::singleShot(EndMs, process, &QProcess::kill);
-        process->terminate();
+        if (process->state() == QProcess::Starting)
+        {
+            process->kill(); // still a copy of our own program, with its signal handlers
+        }
+        else
+        {
+            process->terminate();
+        }
     }
     mFolder.reset();
 }

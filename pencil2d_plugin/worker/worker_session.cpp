@@ -49,8 +49,8 @@ bool isOutput(const QString& output)
 
 } // namespace
 
-WorkerSession::WorkerSession(const Interpreter& interpreter, QObject* parent)
-    : Worker(parent), mProcess(interpreter)
+WorkerSession::WorkerSession(const Interpreter& interpreter, qint64 bytesKept, QObject* parent)
+    : Worker(parent), mProcess(interpreter), mBook(bytesKept)
 {
     connect(&mProcess, &WorkerProcess::ready, this, &WorkerSession::connectTo);
     connect(&mProcess, &WorkerProcess::lost, this, &WorkerSession::workerLost);

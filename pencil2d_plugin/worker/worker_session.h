@@ -22,7 +22,9 @@ class WorkerSession : public Worker
     Q_OBJECT
 
 public:
-    explicit WorkerSession(const Interpreter& interpreter = findInterpreter(), QObject* parent = nullptr);
+    /// Of drawings about `bytesKept` stay in memory; others are asked for by frameWanted().
+    explicit WorkerSession(const Interpreter& interpreter = findInterpreter(), qint64 bytesKept = 512LL << 20,
+                           QObject* parent = nullptr);
     /// Waits for the worker's end, at most 2 s: for the program's exit.
     ~WorkerSession() override;
 
@@ -33,6 +35,7 @@ public:
     void dropFrame(int frame) override;
     void dropAllFrames() override;
     void setScene(const Scene& scene) override;
+    quint64 revision() const override { return mRevision; }
     bool isCurrent(const LookImage& image) const override;
     void look(int frame, Show show, const QRectF& crop, const QSize& size) override;
     void stopLooking() override;

@@ -1,0 +1,397 @@
+// The client of the worker against a worker that follows a script.
+#include "worker/worker_session.h"
+
+#include <QElapsedTimer>
+#include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QtTest>
+
+#include <csignal>
+
+using namespace lampblack;
+
+namespace
+{
+
+constexpr int Side = 8;
+
+QImage sheet(Qt::GlobalColor colour)
+{
+    QImage image(Side, Side, QImage::Format_RGBA8888);
+    image.fill(colour);
+    return image;
+}
+
+Scene sceneLitFrom(double x)
+{
+    Scene scene = defaultScene(QSize(Side, Side));
+    scene.lights[0].x = x;
+    return scene;
+}
+
+/// The longest that the event loop was kept from coming round, told and not judged.
+class Watch : public QObject
+{
+public:
+    Watch()
+    {
+        mClock.start();
+        connect(&mTimer, &QTimer::timeout, this, [this] { mLongest = qMax(mLongest, mClock.restart()); });
+        mTimer.start(1);
+    }
+    ~Watch() override { qInfo("longest gap of the event loop: %lld ms", mLongest); }
+
+private:
+    QTimer mTimer;
+    QElapsedTimer mClock;
+    qint64 mLongest = 0;
+};
+
+} // namespace
+
+class TestWorkerSession : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init()
+    {
+        mFolder = std::make_unique<QTemporaryDir>();
+        mImages.clear();
+        mProblems.clear();
+        qputenv("LAMPBLACK_FAKE_FOLDER", mFolder->path().toLocal8Bit());
+    }
+
+    void aDrawingUnderALightIsShown_data()
+    {
+        QTest::addColumn<QByteArray>("script");
+        QTest::addColumn<int>("launches");
+        QTest::newRow("at once") << QByteArray("good") << 1;
+        QTest::newRow("late") << QByteArray("late") << 1;
+        QTest::newRow("died before it was ready") << QByteArray("stumbles") << 2;
+        QTest::newRow("died in mid-session") << QByteArray("dies_of_light") << 2;
+        QTest::newRow("served others") << QByteArray("full") << 2;
+        QTest::newRow("talked nonsense") << QByteArray("babbles") << 1;
+    }
+
+    void aDrawingUnderALightIsShown()
+    {
+        QFETCH(QByteArray, script);
+        QFETCH(int, launches);
+        const Watch watch;
+        const auto session = open(script);
+        lookAtOne(*session);
+        QTRY_VERIFY_WITH_TIMEOUT(!mImages.isEmpty(), 10000);
+        QCOMPARE(mImages[0].frame, 1);
+        QCOMPARE(mImages[0].picture.size(), QSize(Side, Side));
+        QCOMPARE(mImages[0].crop, QRectF(0, 0, Side, Side));
+        QVERIFY(session->isCurrent(mImages.last()));
+        QTRY_COMPARE(session->state(), Worker::State::Ready);
+        QCOMPARE(launchesCounted(), launches);
+        session->setScene(sceneLitFrom(5));
+        QVERIFY(!session->isCurrent(mImages.last()));
+        QTRY_VERIFY(session->isCurrent(mImages.last()));
+    }
+
+    void whatIsStaleIsDropped()
+    {
+        const auto session = open("stale");
+        lookAtOne(*session);
+        QTRY_COMPARE(mImages.size(), 2);
+        QTest::qWait(100);
+        QCOMPARE(mImages.size(), 2);
+        QCOMPARE(mImages[0].pass, 5);
+        QCOMPARE(mImages[1].pass, 6);
+        QCOMPARE(mImages[1].picture.constBits()[0], uchar(6));
+    }
+
+    void aFloodIsPassedOver()
+    {
+        const Watch watch;
+        const auto session = open("floods");
+        lookAtOne(*session);
+        QTRY_VERIFY_WITH_TIMEOUT(!mImages.isEmpty() && mImages.last().pass == 2999, 20000);
+        qInfo("%d of 3000 images reached the user interface", int(mImages.size()));
+        for (int i = 1; i < mImages.size(); ++i)
+        {
+            QVERIFY(mImages[i].pass > mImages[i - 1].pass);
+        }
+    }
+
+    void aWorkerThatStopsTickingIsReplaced()
+    {
+        const Watch watch;
+        const auto session = open("hangs");
+        lookAtOne(*session);
+        QTRY_VERIFY(!mImages.isEmpty());
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), Worker::State::Restarting, 10000);
+        mImages.clear();
+        QTRY_VERIFY_WITH_TIMEOUT(!mImages.isEmpty(), 10000);
+        QTRY_COMPARE(session->state(), Worker::State::Ready);
+        QVERIFY(mProblems.isEmpty());
+    }
+
+    void killedWhileALightIsDraggedThePictureReturns()
+    {
+        const Watch watch;
+        const auto session = open("good");
+        lookAtOne(*session);
+        QTRY_VERIFY(!mImages.isEmpty());
+        kill(static_cast<pid_t>(session->workerPid()), SIGKILL);
+        bool restarting = false;
+        connect(session.get(), &Worker::stateChanged, this,
+                [&restarting](Worker::State state) { restarting |= state == Worker::State::Restarting; });
+        mImages.clear();
+        for (int x = 0; x < 100; ++x)
+        {
+            session->setScene(sceneLitFrom(x));
+            QTest::qWait(2);
+        }
+        QTRY_VERIFY(!mImages.isEmpty() && session->isCurrent(mImages.last()));
+        QVERIFY(restarting);
+        QVERIFY(mProblems.isEmpty());
+    }
+
+    void aDragNeverMakesTheSceneWait()
+    {
+        const Watch watch;
+        const auto session = open("good");
+        lookAtOne(*session);
+        QTRY_VERIFY(!mImages.isEmpty());
+        for (int x = 0; x < 20000; ++x)
+        {
+            session->setScene(sceneLitFrom(x));
+        }
+        QTRY_VERIFY(session->isCurrent(mImages.last()));
+        int scenes = 0;
+        const QList<QJsonObject> headers = received();
+        for (const QJsonObject& header : headers)
+        {
+            scenes += header.value(QLatin1String("type")) == QLatin1String("set_scene") ? 1 : 0;
+        }
+        qInfo("%d of 20000 scenes were sent", scenes);
+        QVERIFY(scenes < 10000);
+    }
+
+    void anotherVersionIsToldOnceAndLeftAlone_data()
+    {
+        QTest::addColumn<QByteArray>("script");
+        QTest::newRow("by its file") << QByteArray("other_file");
+        QTest::newRow("by its words") << QByteArray("other_version");
+    }
+
+    void anotherVersionIsToldOnceAndLeftAlone()
+    {
+        QFETCH(QByteArray, script);
+        const auto session = open(script);
+        QTRY_COMPARE(mProblems.size(), 1);
+        QVERIFY(mProblems[0].remedy.contains(QStringLiteral("Update both")));
+        QCOMPARE(session->state(), Worker::State::Absent);
+        QTest::qWait(100);
+        QCOMPARE(launchesCounted(), 1);
+        QCOMPARE(mProblems.size(), 1);
+    }
+
+    void withoutAWorkerAllElseGoesOn()
+    {
+        qputenv("LAMPBLACK_FAKE", "good");
+        WorkerSession session({QStringLiteral("/nowhere/python"), QStringLiteral("the test")});
+        watch(session);
+        session.start();
+        QCOMPARE(session.state(), Worker::State::Starting);
+        lookAtOne(session);
+        QTRY_COMPARE(mProblems.size(), 1);
+        QCOMPARE(session.state(), Worker::State::Absent);
+        const QSignalSpy done(&session, &Worker::renderDone);
+        session.render(QStringLiteral("1"), QStringLiteral("/tmp/a.%04d.png"), Quality::Final);
+        QTRY_COMPARE(done.count(), 1);
+        QCOMPARE(done[0][1].toString(), QStringLiteral("failed"));
+        session.stopLooking();
+        session.dropAllFrames();
+        session.stop();
+    }
+
+    void aDrawingThatWasLetGoIsAskedOfTheHost()
+    {
+        qputenv("LAMPBLACK_FAKE", "good");
+        WorkerSession session({QStringLiteral(LAMPBLACK_FAKE_WORKER), QString()},
+                              2048); // one sheet at a time
+        watch(session);
+        session.putFrame(1, sheet(Qt::red));
+        session.putFrame(2, sheet(Qt::green));
+        session.putFrame(3, sheet(Qt::blue));
+        QTest::qWait(100);
+        connect(&session, &Worker::frameWanted, &session,
+                [&session](int frame) { session.putFrame(frame, sheet(frame == 1 ? Qt::red : Qt::green)); });
+        session.start();
+        session.setScene(sceneLitFrom(1));
+        session.look(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+        QTRY_VERIFY(!mImages.isEmpty());
+        session.look(2, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+        QTRY_COMPARE(mImages.last().frame, 2);
+    }
+
+    void aRedrawnFrameIsShownAnew()
+    {
+        const auto session = open("good");
+        lookAtOne(*session);
+        QTRY_VERIFY(!mImages.isEmpty());
+        const QByteArray before = mImages.last().digest;
+        session->putFrame(1, sheet(Qt::blue));
+        QTRY_VERIFY(mImages.last().digest != before);
+        QVERIFY(session->isCurrent(mImages.last()));
+    }
+
+    void aPaletteIsAnswered()
+    {
+        const auto session = open("good");
+        const QSignalSpy palette(session.get(), &Worker::paletteArrived);
+        session->askPalette(1); // before there is such a frame
+        session->putFrame(1, sheet(Qt::red));
+        QTRY_COMPARE(palette.count(), 1);
+        QCOMPARE(palette[0][1].value<QVector<Swatch>>().value(0).colour, QStringLiteral("#ff0000"));
+    }
+
+    void aRenderIsFinishedByTheNextWorker()
+    {
+        const auto session = open("dies_rendering");
+        lookAtOne(*session);
+        session->putFrame(2, sheet(Qt::green));
+        session->putFrame(3, sheet(Qt::blue));
+        const QSignalSpy frameDone(session.get(), &Worker::renderFrameDone);
+        const QSignalSpy done(session.get(), &Worker::renderDone);
+        const quint64 job =
+            session->render(QStringLiteral("1-3"), QStringLiteral("/tmp/a.%04d.png"), Quality::Final);
+        session->setScene(sceneLitFrom(7));
+        QTRY_COMPARE_WITH_TIMEOUT(done.count(), 1, 10000);
+        QCOMPARE(done[0], (QList<QVariant>{job, QStringLiteral("finished"), 3, 3, 0}));
+        QCOMPARE(frameDone.count(), 1);
+        QStringList asked;
+        QVector<double> under;
+        double light = -1;
+        const QList<QJsonObject> headers = received();
+        for (const QJsonObject& header : headers)
+        {
+            const QString type = header.value(QLatin1String("type")).toString();
+            if (type == QLatin1String("set_scene"))
+            {
+                light = header[QStringLiteral("scene")][QStringLiteral("lights")][0][QStringLiteral("x")]
+                            .toDouble();
+            }
+            if (type == QLatin1String("render"))
+            {
+                asked.append(header.value(QLatin1String("frames")).toString());
+                under.append(light);
+            }
+        }
+        QCOMPARE(asked, (QStringList{QStringLiteral("1-3"), QStringLiteral("2-3")}));
+        QCOMPARE(under, (QVector<double>{1, 1})); // the scene as it was when it was asked for
+        QCOMPARE(light, 7.0);
+    }
+
+    void aRefusedRenderEnds_data()
+    {
+        QTest::addColumn<QString>("frames");
+        QTest::addColumn<QString>("output");
+        QTest::newRow("no frames") << ""
+                                   << "/tmp/a.%04d.png";
+        QTest::newRow("not a pattern") << "1"
+                                       << "/tmp/a.png";
+        QTest::newRow("relative") << "1"
+                                  << "a.%04d.png";
+        QTest::newRow("two numbers") << "1"
+                                     << "/tmp/%d.%04d.png";
+        QTest::newRow("by the worker") << "404"
+                                       << "/tmp/a.%04d.png";
+    }
+
+    void aRefusedRenderEnds()
+    {
+        QFETCH(QString, frames);
+        QFETCH(QString, output);
+        const auto session = open("good");
+        lookAtOne(*session);
+        const QSignalSpy done(session.get(), &Worker::renderDone);
+        const quint64 job = session->render(frames, output, Quality::Low);
+        QCOMPARE(done.count(), 0);
+        QTRY_COMPARE(done.count(), 1);
+        QCOMPARE(done[0][0].toULongLong(), job);
+        QCOMPARE(done[0][1].toString(), QStringLiteral("failed"));
+        QTRY_COMPARE(mProblems.size(), 1);
+    }
+
+    void nothingOfLooksThatCannotBeReachesTheWorker()
+    {
+        const auto session = open("good");
+        lookAtOne(*session);
+        QTRY_VERIFY(!mImages.isEmpty());
+        session->look(1, Show::Lit, QRectF(0, 0, qQNaN(), 5), QSize(5, 5));
+        session->look(1, Show::Lit, QRectF(), QSize(5, 5));
+        session->look(-3, Show::Lit, QRectF(0, 0, 5, 5), QSize(5, 5));
+        session->look(1, Show::Lit, QRectF(-1e9, 0, 1e9, 1e-9), QSize(100000, 50000));
+        QTRY_COMPARE(received().last().value(QLatin1String("type")).toString(), QStringLiteral("preview"));
+        const QJsonObject last = received().last();
+        QCOMPARE(last.value(QLatin1String("width")).toInt(), 4096);
+        QCOMPARE(last.value(QLatin1String("height")).toInt(), 2048);
+        QCOMPARE(last[QStringLiteral("crop")][QStringLiteral("x")].toDouble(), -100000.0);
+        QCOMPARE(last[QStringLiteral("crop")][QStringLiteral("height")].toDouble(), 0.01);
+    }
+
+private:
+    std::unique_ptr<WorkerSession> open(const QByteArray& script)
+    {
+        qputenv("LAMPBLACK_FAKE", script);
+        auto session = std::make_unique<WorkerSession>(
+            Interpreter{QStringLiteral(LAMPBLACK_FAKE_WORKER), QStringLiteral("the test")});
+        watch(*session);
+        session->start();
+        return session;
+    }
+
+    void watch(WorkerSession& session)
+    {
+        connect(&session, &Worker::imageArrived, this,
+                [this](const LookImage& image) { mImages.append(image); });
+        connect(&session, &Worker::problem, this,
+                [this](const UserError& error) { mProblems.append(error); });
+    }
+
+    static void lookAtOne(WorkerSession& session)
+    {
+        session.putFrame(1, sheet(Qt::red));
+        session.setScene(sceneLitFrom(1));
+        session.look(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+    }
+
+    QList<QJsonObject> received() const
+    {
+        QFile log(mFolder->filePath(QStringLiteral("received")));
+        (void)log.open(QIODevice::ReadOnly);
+        QList<QJsonObject> headers;
+        const QList<QByteArray> lines = log.readAll().split('\n');
+        for (const QByteArray& line : lines)
+        {
+            if (!line.isEmpty())
+            {
+                headers.append(QJsonDocument::fromJson(line).object());
+            }
+        }
+        return headers;
+    }
+
+    int launchesCounted() const
+    {
+        return int(QFileInfo(mFolder->filePath(QStringLiteral("launches"))).size());
+    }
+
+    std::unique_ptr<QTemporaryDir> mFolder;
+    QVector<LookImage> mImages;
+    QVector<UserError> mProblems;
+};
+
+QTEST_GUILESS_MAIN(TestWorkerSession)
+#include "test_worker_session.moc"
