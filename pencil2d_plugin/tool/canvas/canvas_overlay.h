@@ -16,6 +16,7 @@ namespace lampblack
 class CanvasOverlay : public QWidget
 {
     Q_OBJECT
+    Q_PROPERTY(bool showsPicture READ showsPicture)
 
 public:
     /// `host` has a canvas().

@@ -76,6 +76,17 @@ void paintArrow(QPainter& painter, const LightShape& light)
     painter.drawPath(arrow);
 }
 
+void paintStem(QPainter& painter, const LightShape& light, bool selected, const QColor& tint)
+{
+    const double way = light.behind ? 1 : -1;
+    const QPointF root = light.centre + QPointF(0, way * (Handles::DiscRadius + 2));
+    strokeTwice(painter, line(root, light.grip), tint, selected ? 1.5 : 1, light.behind);
+    strokeTwice(painter, circle(light.grip, Handles::GripRadius), tint, 1.5);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(light.behind ? QColor(90, 90, 96) : Light);
+    painter.drawEllipse(light.grip, Handles::GripRadius - 1, Handles::GripRadius - 1);
+}
+
 void paintLight(QPainter& painter, const LightShape& light, bool selected, HandlePart hovered)
 {
     const auto tint = [hovered](HandlePart part)
@@ -88,15 +99,9 @@ void paintLight(QPainter& painter, const LightShape& light, bool selected, Handl
     if (!light.outside)
         strokeTwice(painter, circle(light.centre, light.ring), tint(HandlePart::Size), selected ? 1.5 : 1,
                     light.behind);
-    const double way = light.grip.y() < light.centre.y() ? -1 : 1;
-    const QPointF root = light.centre + QPointF(0, way * (Handles::DiscRadius + 2));
-    strokeTwice(painter, line(root, light.grip), tint(HandlePart::Height), selected ? 1.5 : 1, light.behind);
     painter.restore();
-
-    strokeTwice(painter, circle(light.grip, Handles::GripRadius), tint(HandlePart::Height), 1.5);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(light.behind ? QColor(90, 90, 96) : Light);
-    painter.drawEllipse(light.grip, Handles::GripRadius - 1, Handles::GripRadius - 1);
+    if (!light.outside)
+        paintStem(painter, light, selected, tint(HandlePart::Height));
 
     if (light.outside)
         paintArrow(painter, light);

@@ -15,7 +15,8 @@ namespace
 constexpr double ShortestStem = 22;
 constexpr double StemGrowth = 22;
 constexpr double Inset = 20;
-constexpr double PatchSide = 52;
+constexpr double PatchSide = 60;
+constexpr double PatchFar = 0.7; // width of its far edge
 constexpr double Reach = 13;
 constexpr double LineReach = 6;
 
@@ -91,7 +92,8 @@ std::optional<FloorShape> shapeOf(const Floor& floor, double width, const QTrans
     const QPointF along = (whole.p2() - whole.p1()) / whole.length() * (PatchSide / 2);
     const QLineF down(QPointF(), transform.map(QPointF(0, 1)) - transform.map(QPointF(0, 0)));
     const QPointF deep = down.p2() / down.length() * PatchSide * std::sin(qDegreesToRadians(floor.pitch));
-    shape.patch << shape.grip - along << shape.grip + along << shape.grip + along + deep
+    // Wider towards the viewer: what is drawn so reads as floor.
+    shape.patch << shape.grip - along * PatchFar << shape.grip + along * PatchFar << shape.grip + along + deep
                 << shape.grip - along + deep;
     return shape;
 }
@@ -141,7 +143,7 @@ Handle Handles::at(const QPointF& position) const
     {
         if (distance(position, mLights[light].centre) <= Reach)
             return {HandlePart::Light, light};
-        if (distance(position, mLights[light].grip) <= GripRadius + LineReach)
+        if (!mLights[light].outside && distance(position, mLights[light].grip) <= GripRadius + LineReach)
             return {HandlePart::Height, light};
     }
     if (mFloor && (distance(position, mFloor->line) <= LineReach ||

@@ -25,16 +25,19 @@ MaterialsDock::MaterialsDock(SceneDocument& document)
     mPick->setCheckable(true);
     mPick->setAutoRaise(true);
     mPick->setFocusPolicy(Qt::StrongFocus);
+    const QStringList titles{tr("Diffuse"), tr("Glossy")};
+    for (const QString& title : titles)
+        mColumnWidth = qMax(mColumnWidth, fontMetrics().horizontalAdvance(title) + 6);
     auto* heading = new QHBoxLayout;
     heading->setContentsMargins(6, 0, 2, 0);
     heading->setSpacing(6);
     heading->addWidget(mPick);
     heading->addStretch(1);
-    for (const QString& title : {tr("Diffuse"), tr("Glossy")})
+    for (const QString& title : titles)
     {
         auto* label = new QLabel(title);
         label->setAlignment(Qt::AlignCenter);
-        label->setFixedWidth(SwatchRow::ColumnWidth);
+        label->setFixedWidth(mColumnWidth);
         heading->addWidget(label);
     }
     mEmpty->setObjectName(QStringLiteral("lampblack.materials.empty"));
@@ -151,7 +154,7 @@ SwatchRow* MaterialsDock::row(const QString& colour)
     SwatchRow*& found = mRows[colour];
     if (found == nullptr)
     {
-        found = new SwatchRow(colour, mScroll->widget());
+        found = new SwatchRow(colour, mColumnWidth, mScroll->widget());
         found->setMaterial(mDocument.scene().material(colour));
         found->setHighlighted(colour == mHighlighted);
         connect(found, &SwatchRow::edited, this,

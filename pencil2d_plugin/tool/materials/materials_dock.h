@@ -43,6 +43,7 @@ private:
     QVector<QString> mOthers;
     QMap<QString, SwatchRow*> mRows;
     QString mHighlighted;
+    int mColumnWidth = 0; ///< of the boxes
     QToolButton* mPick;
     QLabel* mEmpty;
     QScrollArea* mScroll;

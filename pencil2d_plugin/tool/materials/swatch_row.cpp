@@ -12,7 +12,7 @@ namespace
 constexpr int SwatchSide = 22;
 }
 
-SwatchRow::SwatchRow(const QString& colour, QWidget* parent)
+SwatchRow::SwatchRow(const QString& colour, int columnWidth, QWidget* parent)
     : QWidget(parent), mColour(colour), mSwatch(new QWidget(this)), mDiffuse(new QCheckBox(this)),
       mGlossy(new QCheckBox(this))
 {
@@ -32,7 +32,7 @@ SwatchRow::SwatchRow(const QString& colour, QWidget* parent)
     for (QCheckBox* box : {mDiffuse, mGlossy})
     {
         auto* cell = new QWidget(this);
-        cell->setFixedWidth(ColumnWidth);
+        cell->setFixedWidth(columnWidth);
         auto* centred = new QHBoxLayout(cell);
         centred->setContentsMargins(0, 0, 0, 0);
         centred->addWidget(box, 0, Qt::AlignCenter);

@@ -15,9 +15,8 @@ class SwatchRow : public QWidget
     Q_OBJECT
 
 public:
-    static constexpr int ColumnWidth = 52; ///< of each of the two boxes
-
-    SwatchRow(const QString& colour, QWidget* parent = nullptr);
+    /// The two boxes stand in the middle of columns of `columnWidth`.
+    SwatchRow(const QString& colour, int columnWidth, QWidget* parent = nullptr);
 
     const QString& colour() const { return mColour; }
     /// Show a material; tells nobody.

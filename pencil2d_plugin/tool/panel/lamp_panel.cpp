@@ -7,8 +7,16 @@
 #include <QHBoxLayout>
 #include <QScrollBar>
 
+#include <algorithm>
+
 namespace lampblack
 {
+
+namespace
+{
+constexpr double SmallShare = 0.85;
+constexpr double LeastPointSize = 7;
+} // namespace
 
 LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
     : mViews(new QButtonGroup(this)), mProblem(new ProblemCard), mRender(new RenderSection(document, render)),
@@ -19,10 +27,14 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
     setWidgetResizable(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn); // what comes and goes must not shift the rest
+    // The tool options are narrow: with the usual font, sliders would have no room.
+    QFont small = font();
+    small.setPointSizeF(std::max(LeastPointSize, SmallShare * small.pointSizeF()));
     auto* content = new QWidget;
+    content->setFont(small);
     auto* column = new QVBoxLayout(content);
-    column->setContentsMargins(4, 4, 4, 4);
-    column->setSpacing(4);
+    column->setContentsMargins(3, 3, 3, 3);
+    column->setSpacing(3);
     column->addWidget(mProblem);
     column->addWidget(viewSwitch());
     column->addWidget(mWorkerLine);
@@ -57,9 +69,10 @@ QWidget* LampPanel::viewSwitch()
         button->setToolTip(hint);
         button->setCheckable(true);
         button->setFocusPolicy(Qt::StrongFocus);
-        button->setSizePolicy(QSizePolicy::MinimumExpanding, QSizePolicy::Fixed);
+        // Each as wide as its word, and all together as wide as the panel.
+        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
         mViews->addButton(button, int(mode));
-        row->addWidget(button);
+        row->addWidget(button, int(text.size()) + 3);
     };
     add(ViewMode::Lit, QStringLiteral("lit"), tr("Lit"), tr("The drawing in its light"));
     add(ViewMode::Normals, QStringLiteral("normals"), tr("Normals"), tr("Which way the surface faces"));

@@ -28,7 +28,7 @@ void LayersSection::refresh()
     if (mRows != nullptr)
     {
         mRows->hide();
-        mRows->setObjectName(QString());
+        mRows->setParent(nullptr);
         mRows->deleteLater();
     }
     mRows = new QWidget(this);

@@ -9,8 +9,6 @@ Section::Section(const QString& name, const QString& title, bool open, QWidget* 
 {
     mHeading->setObjectName(name);
     mHeading->setText(title);
-    mHeading->setCheckable(true);
-    mHeading->setChecked(open);
     mHeading->setAutoRaise(true);
     mHeading->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     mHeading->setIconSize(QSize(10, 10));
@@ -19,20 +17,22 @@ Section::Section(const QString& name, const QString& title, bool open, QWidget* 
     QFont bold = mHeading->font();
     bold.setBold(true);
     mHeading->setFont(bold);
-    mBody->setContentsMargins(6, 0, 2, 4);
+    mBody->setContentsMargins(4, 0, 0, 4);
     mBody->setSpacing(3);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
     column->addWidget(mHeading);
     column->addWidget(mContent);
-    const auto fold = [this](bool opened)
-    {
-        mHeading->setArrowType(opened ? Qt::DownArrow : Qt::RightArrow);
-        mContent->setVisible(opened);
-    };
-    connect(mHeading, &QToolButton::toggled, this, fold);
-    fold(open);
+    connect(mHeading, &QToolButton::clicked, this, [this] { setOpen(!mOpen); });
+    setOpen(open);
+}
+
+void Section::setOpen(bool open)
+{
+    mOpen = open;
+    mHeading->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
+    mContent->setVisible(open);
 }
 
 } // namespace lampblack

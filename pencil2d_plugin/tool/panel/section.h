@@ -17,14 +17,15 @@ public:
     Section(const QString& name, const QString& title, bool open, QWidget* parent = nullptr);
 
     QVBoxLayout* body() { return mBody; }
-    bool isOpen() const { return mHeading->isChecked(); }
-    void setOpen(bool open) { mHeading->setChecked(open); }
+    bool isOpen() const { return mOpen; }
+    void setOpen(bool open);
     void setTitle(const QString& title) { mHeading->setText(title); }
 
 private:
     QToolButton* mHeading;
     QWidget* mContent;
     QVBoxLayout* mBody;
+    bool mOpen = true;
 };
 
 } // namespace lampblack

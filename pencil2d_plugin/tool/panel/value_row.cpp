@@ -1,5 +1,6 @@
 #include "tool/panel/value_row.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLineEdit>
 #include <QSignalBlocker>
@@ -13,8 +14,7 @@ namespace lampblack
 namespace
 {
 constexpr int Steps = 1000;
-constexpr int LabelWidth = 66;
-constexpr int FieldWidth = 52;
+constexpr int LeastSlider = 30;
 } // namespace
 
 double SliderScale::valueAt(double position) const
@@ -37,18 +37,16 @@ ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale&
 {
     setObjectName(name + QStringLiteral(".row"));
     mSlider->setObjectName(name);
-    mSlider->setMinimumWidth(40);
+    mSlider->setMinimumWidth(LeastSlider);
     mSlider->setAccessibleName(label);
     mField->setObjectName(name + QStringLiteral(".field"));
     mField->setAccessibleName(label);
     mField->setButtonSymbols(QAbstractSpinBox::NoButtons);
     mField->setAlignment(Qt::AlignRight);
     mField->setKeyboardTracking(false);
-    mField->setFixedWidth(FieldWidth);
     // Lets Ctrl+Z in the field undo the scene rather than the typing.
     mField->findChild<QLineEdit*>()->setProperty("lampblack.value", true);
     mField->setProperty("lampblack.value", true);
-    mLabel->setFixedWidth(LabelWidth);
     mLabel->setBuddy(mField);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
@@ -57,10 +55,26 @@ ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale&
     row->addWidget(mSlider, 1);
     row->addWidget(mField);
     setScale(scale);
+    align();
     connect(mSlider, &QSlider::sliderPressed, this, [this] { mSlide = newGesture(); });
     connect(mSlider, &QSlider::sliderReleased, this, [this] { mSlide = 0; });
     connect(mSlider, &QSlider::valueChanged, this, &ValueRow::slid);
     connect(mField, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &ValueRow::typed);
+}
+
+void ValueRow::changeEvent(QEvent* event)
+{
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange)
+        align();
+    QWidget::changeEvent(event);
+}
+
+void ValueRow::align()
+{
+    // All rows share these widths, so that their sliders stand in line.
+    const QFontMetrics metrics = fontMetrics();
+    mLabel->setFixedWidth(metrics.horizontalAdvance(tr("Roughness")) + 2);
+    mField->setFixedWidth(metrics.horizontalAdvance(QStringLiteral("-8888")) + 14);
 }
 
 void ValueRow::setScale(const SliderScale& scale)

@@ -39,14 +39,17 @@ public:
     /// Show a value; tells nobody.
     void setValue(double value);
     void setScale(const SliderScale& scale);
-    void setLabel(const QString& label) { mLabel->setText(label); }
     void setSuffix(const QString& suffix) { mField->setSuffix(suffix); }
     void setHint(const QString& hint);
 
 Q_SIGNALS:
     void edited(double value, int gesture);
 
+protected:
+    void changeEvent(QEvent* event) override;
+
 private:
+    void align();
     void slid(int position);
     void typed(double value);
     void showOnSlider(double value);

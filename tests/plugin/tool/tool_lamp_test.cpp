@@ -1,0 +1,221 @@
+// The lamp as a whole, in a host that does as it is told.
+#include "fakes.h"
+#include "tool/canvas/canvas_overlay.h"
+#include "tool/lamp_tool.h"
+#include "tool/panel/problem_card.h"
+
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QToolButton>
+
+using namespace lampblack;
+
+namespace
+{
+
+const QColor Green(0, 160, 0);
+
+LookImage look(Show show)
+{
+    LookImage picture;
+    picture.frame = 1;
+    picture.show = show;
+    picture.crop = QRectF(0, 0, 400, 300);
+    picture.picture = QImage(400, 300, QImage::Format_RGBA8888_Premultiplied);
+    picture.picture.fill(Green);
+    return picture;
+}
+
+} // namespace
+
+class LampTest : public QObject
+{
+    Q_OBJECT
+
+private:
+    static bool isGreen(const FakeHost& host)
+    {
+        return QColor(host.mCanvas->grab().toImage().pixel(20, 290)) == Green;
+    }
+
+private Q_SLOTS:
+    void takesItsPlaces()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        QCOMPARE(host.mTool, lamp.toolAction());
+        QVERIFY(!host.mTool->icon().pixmap(24).isNull());
+        QCOMPARE(host.mTool->shortcut(), QKeySequence(Qt::Key_L));
+        QVERIFY(host.mPanel != nullptr);
+        QCOMPARE(host.mAnimation, QVector<QAction*>{lamp.renderAction()});
+    }
+
+    void showsThePictureItIsGivenWhileInUse()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        document.reset(sceneWithLight(200, 150, 200));
+        LampTool lamp(host, worker, document);
+        QSignalSpy active(&lamp, &LampTool::activeChanged);
+        host.open();
+        QVERIFY(lamp.isActive());
+        QCOMPARE(active.count(), 1);
+        lamp.setPicture(look(Show::Lit));
+        QVERIFY(isGreen(host));
+        lamp.setViewMode(ViewMode::Normals);
+        QVERIFY2(!isGreen(host), "another view drops the picture of the last");
+        lamp.setPicture(look(Show::Lit));
+        QVERIFY2(!isGreen(host), "a late picture of another view is passed over");
+        lamp.setPicture(look(Show::Normals));
+        QVERIFY(isGreen(host));
+        host.mTool->setChecked(false);
+        QVERIFY(!lamp.isActive());
+        QVERIFY2(!isGreen(host), "another tool sees the drawing");
+    }
+
+    void aMovingCameraRegistersEachFrame()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        host.open();
+        FrameExport panned;
+        panned.frame = 1;
+        panned.canvasToImage = QTransform::fromTranslate(-100, 0);
+        lamp.setFrame(panned);
+        FrameExport still;
+        still.frame = 2;
+        lamp.setFrame(still);
+        lamp.setPicture(look(Show::Lit));
+        QVERIFY2(!isGreen(host), "frame 1 starts 100 pixels to the right");
+        QCOMPARE(QColor(host.mCanvas->grab().toImage().pixel(120, 290)), Green);
+    }
+
+    void aRightClickOpensTheMenu()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        document.reset(sceneWithLight(200, 150, 200));
+        LampTool lamp(host, worker, document);
+        host.open();
+        QTest::mouseClick(host.mCanvas, Qt::RightButton, Qt::NoModifier, QPoint(60, 70));
+        auto* menu = host.mCanvas->findChild<QMenu*>(QStringLiteral("lampblack.menu"));
+        QVERIFY(menu->isVisible());
+        menu->findChild<QAction*>(QStringLiteral("lampblack.menu.floor"))->trigger();
+        menu->close();
+        QCOMPARE(document.scene().floor->y, 70.0);
+    }
+
+    void picksAColourOnTheCanvas()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        document.reset(sceneWithLight(200, 150, 200));
+        LampTool lamp(host, worker, document);
+        host.open();
+        FrameExport frame;
+        frame.frame = 1;
+        frame.image = QImage(400, 300, QImage::Format_RGBA8888);
+        frame.image.fill(QColor(0xdd, 0x3f, 0x2e));
+        lamp.setFrame(frame);
+        lamp.setPalette({{QStringLiteral("#dd3f2e"), 1000}});
+        auto* pick = host.mWindow.findChild<QToolButton*>(QStringLiteral("lampblack.materials.pick"));
+        pick->click();
+        QVERIFY(pick->isChecked());
+        // Over the light, too: while picking there are only colours.
+        QTest::mouseClick(host.mCanvas, Qt::LeftButton, Qt::NoModifier, QPoint(200, 150));
+        QVERIFY(!pick->isChecked());
+        QCOMPARE(document.undoStack()->count(), 0);
+    }
+
+    void tellsWhatTheWorkerDoesAndWhatWentWrong()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        auto* line = host.mPanel->findChild<QLabel*>(QStringLiteral("lampblack.panel.worker"));
+        QCOMPARE(line->text(), QStringLiteral("Ready"));
+        Q_EMIT worker.stateChanged(Worker::State::Restarting);
+        QVERIFY(line->text() != QStringLiteral("Ready"));
+        Q_EMIT worker.problem({QStringLiteral("It broke."), QString(), QString()});
+        auto* card = host.mPanel->findChild<ProblemCard*>();
+        QCOMPARE(card->error().what, QStringLiteral("It broke."));
+        QCOMPARE(host.mStatus, QStringLiteral("It broke."));
+    }
+
+    void asksForWorkByButtonAndMenu()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        QSignalSpy render(&lamp, &LampTool::renderAllRequested);
+        QSignalSpy surfaces(&lamp, &LampTool::generateSurfacesRequested);
+        host.mPanel->findChild<QPushButton*>(QStringLiteral("lampblack.panel.render"))->click();
+        host.mAnimation.first()->trigger();
+        host.mPanel->findChild<QPushButton*>(QStringLiteral("lampblack.panel.generate"))->click();
+        QCOMPARE(render.count(), 2);
+        QCOMPARE(surfaces.count(), 1);
+    }
+
+    void aHostThatOffersNothingIsSurvived()
+    {
+        FakeHost host;
+        host.mCannot = {Host::Ability::Palette, Host::Ability::Panel,  Host::Ability::View,
+                        Host::Ability::Layers,  Host::Ability::Frames, Host::Ability::Undo};
+        host.mView.reset();
+        FakeWorker worker;
+        SceneDocument document;
+        document.reset(sceneWithLight(200, 150, 200));
+        LampTool lamp(host, worker, document);
+        host.open();
+        QVERIFY(host.mWindow.findChild<QLabel*>(QStringLiteral("lampblack.panel.blind")) != nullptr);
+        QVERIFY(host.mAnimation.contains(lamp.toolAction()));
+        lamp.toolAction()->trigger();
+        QVERIFY(lamp.isActive());
+        lamp.setPicture(look(Show::Lit));
+        dragMouse(host.mCanvas, {{200, 150}, {250, 180}});
+        QTest::mouseClick(host.mCanvas, Qt::RightButton, Qt::NoModifier, QPoint(60, 70));
+        QCOMPARE(document.undoStack()->count(), 0);
+    }
+
+    void leavesNothingBehind()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        {
+            LampTool lamp(host, worker, document);
+            host.open();
+        }
+        QVERIFY(host.mCanvas->findChildren<QWidget*>().isEmpty());
+        QVERIFY(host.mWindow.findChild<QWidget*>(QStringLiteral("lampblack.materials")) == nullptr);
+        QTest::mouseClick(host.mCanvas, Qt::LeftButton, Qt::NoModifier, QPoint(60, 70));
+    }
+
+    void aWindowThatGoesFirstIsSurvived()
+    {
+        FakeWorker worker;
+        SceneDocument document;
+        auto host = std::make_unique<FakeHost>();
+        LampTool* lamp = new LampTool(*host, worker, document);
+        host->open();
+        lamp->setParent(&document);
+        document.reset(sceneWithLight(10, 10, 200));
+        delete host->mWindow.takeCentralWidget();
+        lamp->setPicture(look(Show::Lit));
+        lamp->clearPicture();
+        delete lamp;
+    }
+};
+
+QTEST_MAIN(LampTest)
+#include "tool_lamp_test.moc"

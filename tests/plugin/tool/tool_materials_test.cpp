@@ -1,0 +1,97 @@
+// The dock of materials and the document.
+#include "fakes.h"
+#include "tool/materials/materials_dock.h"
+
+using namespace lampblack;
+
+namespace
+{
+
+const QString Red = QStringLiteral("#dd3f2e");
+const QString Blue = QStringLiteral("#3a5f8a");
+
+} // namespace
+
+class MaterialsTest : public QObject
+{
+    Q_OBJECT
+
+private:
+    SceneDocument mDocument;
+
+    static QCheckBox* box(const MaterialsDock& dock, const char* kind, const QString& colour)
+    {
+        return dock.findChild<QCheckBox*>(QStringLiteral("lampblack.materials.") + QLatin1String(kind) +
+                                          QLatin1Char('.') + colour);
+    }
+
+private Q_SLOTS:
+    void init() { mDocument.reset(defaultScene(QSize(400, 300))); }
+
+    void theMostUsedComesFirst()
+    {
+        MaterialsDock dock(mDocument);
+        dock.resize(260, 400);
+        dock.setPalette({{Blue, 900}, {Red, 100}});
+        dock.show();
+        const auto top = [&dock](const QString& colour)
+        {
+            return dock.findChild<QWidget*>(QStringLiteral("lampblack.materials.row.") + colour);
+        };
+        QTRY_VERIFY(top(Blue)->y() < top(Red)->y());
+        dock.setPalette({{Red, 800}, {Blue, 700}});
+        QTRY_VERIFY(top(Red)->y() < top(Blue)->y());
+    }
+
+    void boxesEditTheDocumentAndFollowIt()
+    {
+        MaterialsDock dock(mDocument);
+        dock.setPalette({{Red, 100}, {Blue, 50}});
+        box(dock, "glossy", Red)->click();
+        QVERIFY(mDocument.scene().material(Red).glossy);
+        QVERIFY(!mDocument.scene().material(Blue).glossy);
+        QCOMPARE(mDocument.undoStack()->count(), 1);
+        mDocument.undoStack()->undo();
+        QVERIFY(!box(dock, "glossy", Red)->isChecked());
+        box(dock, "diffuse", Blue)->click();
+        QVERIFY(!mDocument.scene().material(Blue).diffuse);
+    }
+
+    void glossHasSlidersOnceItIsThere()
+    {
+        MaterialsDock dock(mDocument);
+        dock.setPalette({{Red, 100}});
+        const QString name = QStringLiteral("lampblack.materials.gloss.") + Red;
+        QVERIFY(dock.findChild<QSlider*>(name) == nullptr);
+        box(dock, "glossy", Red)->click();
+        auto* gloss = dock.findChild<QSlider*>(name);
+        QVERIFY(gloss != nullptr && gloss->isVisibleTo(&dock));
+        gloss->setSliderDown(true);
+        gloss->setSliderPosition(800);
+        gloss->setSliderPosition(900);
+        gloss->setSliderDown(false);
+        QCOMPARE(mDocument.scene().material(Red).gloss, 0.9);
+        QCOMPARE(mDocument.undoStack()->count(), 2);
+        box(dock, "glossy", Red)->click();
+        QVERIFY(!gloss->isVisibleTo(&dock));
+    }
+
+    void coloursOfOtherFramesAreKept()
+    {
+        MaterialsDock dock(mDocument);
+        dock.setPalette({{Red, 100}});
+        box(dock, "glossy", Red)->click();
+        dock.setPalette({{Blue, 100}});
+        QVERIFY(mDocument.scene().material(Red).glossy);
+        QVERIFY(box(dock, "glossy", Red) != nullptr);
+        auto* elsewhere = dock.findChild<Section*>();
+        QVERIFY(elsewhere->isVisibleTo(&dock) && !elsewhere->isOpen());
+        dock.reveal(Red);
+        QVERIFY(elsewhere->isOpen());
+        box(dock, "glossy", Red)->click(); // the default again: nothing to keep
+        QVERIFY(!elsewhere->isVisibleTo(&dock));
+    }
+};
+
+QTEST_MAIN(MaterialsTest)
+#include "tool_materials_test.moc"

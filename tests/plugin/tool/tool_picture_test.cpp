@@ -1,0 +1,174 @@
+// The lit picture lands on the drawing's own pixels under every view.
+#include "fakes.h"
+#include "tool/canvas/canvas_overlay.h"
+#include "tool/canvas/lit_picture.h"
+
+#include <cmath>
+
+using namespace lampblack;
+
+namespace
+{
+
+const QSize View(640, 480);
+const QSize Canvas(400, 300);
+const QRect Mark(260, 90, 12, 12); // canvas pixels; off every axis of symmetry
+
+LookImage lookOf(const QRectF& crop, double pixelsPerCanvasPixel)
+{
+    LookImage look;
+    look.crop = crop;
+    look.picture =
+        QImage((crop.size() * pixelsPerCanvasPixel).toSize(), QImage::Format_RGBA8888_Premultiplied);
+    look.picture.fill(QColor(40, 80, 160));
+    QPainter painter(&look.picture);
+    painter.scale(pixelsPerCanvasPixel, pixelsPerCanvasPixel);
+    painter.translate(-crop.topLeft());
+    painter.fillRect(Mark, QColor(255, 0, 0));
+    return look;
+}
+
+/// Centre of the red mark in logical pixels, weighted by how red a pixel is.
+QPointF centreOfMark(const QImage& shown, double pixelRatio)
+{
+    double weight = 0;
+    QPointF sum;
+    for (int y = 0; y < shown.height(); ++y)
+    {
+        for (int x = 0; x < shown.width(); ++x)
+        {
+            const QRgb pixel = shown.pixel(x, y);
+            const double red = qMax(0, qRed(pixel) - qMax(qGreen(pixel), qBlue(pixel)));
+            weight += red;
+            sum += red * QPointF(x + 0.5, y + 0.5);
+        }
+    }
+    return weight > 0 ? sum / weight / pixelRatio : QPointF(-1, -1);
+}
+
+QImage shownBy(LitPicture& picture, const QTransform& view, double pixelRatio)
+{
+    QImage shown((QSizeF(View) * pixelRatio).toSize(), QImage::Format_ARGB32_Premultiplied);
+    shown.setDevicePixelRatio(pixelRatio);
+    shown.fill(Qt::transparent);
+    QPainter painter(&shown);
+    picture.paint(painter, view, View, pixelRatio, Qt::white);
+    return shown;
+}
+
+} // namespace
+
+class PictureTest : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void theMarkLandsOnItsPixel_data()
+    {
+        QTest::addColumn<QTransform>("view");
+        QTest::addColumn<double>("pixelRatio");
+        QTest::addColumn<double>("density");
+        QTest::newRow("plain") << QTransform() << 1.0 << 1.0;
+        QTest::newRow("shifted by parts of a pixel") << QTransform::fromTranslate(10.4, 20.7) << 1.0 << 1.0;
+        QTest::newRow("33 %") << QTransform(0.33, 0, 0, 0.33, 50, 60) << 1.0 << 0.33;
+        QTest::newRow("33 %, from more") << QTransform(0.33, 0, 0, 0.33, 50, 60) << 1.0 << 1.0;
+        QTest::newRow("300 %") << QTransform(3, 0, 0, 3, -600, -100) << 1.0 << 3.0;
+        QTest::newRow("300 %, from less") << QTransform(3, 0, 0, 3, -600, -100) << 1.0 << 0.5;
+        QTest::newRow("turned") << QTransform().translate(200, 20).rotate(33) << 1.0 << 1.0;
+        QTest::newRow("flipped") << QTransform(-1, 0, 0, 1, 420, 30) << 1.0 << 1.0;
+        QTest::newRow("flipped, turned, 70 %")
+            << QTransform().translate(300, 380).rotate(190).scale(-0.7, 0.7) << 1.0 << 0.7;
+        QTest::newRow("a dense screen") << QTransform(1, 0, 0, 1, 30, 40) << 2.0 << 2.0;
+        QTest::newRow("a dense screen, turned") << QTransform().translate(200, 20).rotate(33) << 2.0 << 1.0;
+    }
+
+    void theMarkLandsOnItsPixel()
+    {
+        QFETCH(QTransform, view);
+        QFETCH(double, pixelRatio);
+        QFETCH(double, density);
+        LitPicture picture;
+        picture.setPicture(lookOf(QRectF(QPointF(), QSizeF(Canvas)), density), QTransform());
+        const QImage shown = shownBy(picture, view, pixelRatio);
+        const QPointF expected = view.map(QRectF(Mark).center());
+        const QPointF found = centreOfMark(shown, pixelRatio);
+        const double off = QLineF(expected, found).length();
+        QVERIFY2(off < 0.5, qPrintable(QStringLiteral("off by %1 pixels").arg(off)));
+    }
+
+    void aCropOfAMovedCameraLandsToo()
+    {
+        // The camera has moved by (30, -20) and the crop starts at a fraction of a pixel.
+        const QTransform canvasToImage = QTransform::fromTranslate(30, -20);
+        LookImage look = lookOf(QRectF(200.5, 40.25, 120, 100), 2);
+        LitPicture picture;
+        picture.setPicture(look, canvasToImage);
+        const QTransform view(1.5, 0, 0, 1.5, -40, 12);
+        const QPointF expected = view.map(canvasToImage.inverted().map(QRectF(Mark).center()));
+        const QPointF found = centreOfMark(shownBy(picture, view, 1), 1);
+        QVERIFY(QLineF(expected, found).length() < 0.5);
+    }
+
+    void onlyTheCropIsCovered()
+    {
+        LitPicture picture;
+        picture.setPicture(lookOf(QRectF(100, 50, 200, 100), 1), QTransform());
+        const QImage shown = shownBy(picture, QTransform(), 1);
+        QCOMPARE(qAlpha(shown.pixel(99, 100)), 0);
+        QCOMPARE(qAlpha(shown.pixel(100, 100)), 255);
+        QCOMPARE(qAlpha(shown.pixel(299, 149)), 255);
+        QCOMPARE(qAlpha(shown.pixel(300, 149)), 0);
+    }
+
+    void paperAndBackdropShowThroughWhatIsClear()
+    {
+        LookImage look = lookOf(QRectF(QPointF(), QSizeF(Canvas)), 1);
+        look.picture.fill(Qt::transparent);
+        LitPicture picture;
+        picture.setPicture(look, QTransform());
+        QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(Qt::white));
+        FrameExport hills;
+        hills.image = QImage(Canvas, QImage::Format_RGBA8888);
+        hills.image.fill(QColor(0, 128, 0));
+        picture.setBackdrop(hills);
+        QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(0, 128, 0));
+    }
+
+    void theOverlayCoversTheDrawingOnlyWhileItShowsAPicture()
+    {
+        FakeHost host;
+        SceneDocument document;
+        document.reset(sceneWithLight(-5000, -5000, 200));
+        CanvasOverlay overlay(host, document);
+        host.open();
+        overlay.setHandlesShown(false);
+        overlay.show();
+        overlay.follow();
+        QCOMPARE(overlay.size(), host.mCanvas->size());
+        overlay.setPicture(lookOf(QRectF(QPointF(), QSizeF(Canvas)), 1), QTransform());
+        const auto at = [&host](int x, int y)
+        {
+            return QColor(host.mCanvas->grab().toImage().pixel(x, y));
+        };
+        QCOMPARE(at(265, 95), QColor(255, 0, 0));
+        overlay.setComparing(true);
+        QVERIFY(at(265, 95) != QColor(255, 0, 0));
+        overlay.setComparing(false);
+        QCOMPARE(at(265, 95), QColor(255, 0, 0));
+        overlay.clearPicture();
+        QVERIFY(at(265, 95) != QColor(255, 0, 0));
+    }
+
+    void theOverlayFollowsTheCanvas()
+    {
+        FakeHost host;
+        SceneDocument document;
+        CanvasOverlay overlay(host, document);
+        host.open();
+        host.mCanvas->resize(321, 123);
+        QCOMPARE(overlay.size(), QSize(321, 123));
+    }
+};
+
+QTEST_MAIN(PictureTest)
+#include "tool_picture_test.moc"
