@@ -35,11 +35,16 @@ QTransform cameraAt(const CameraKeys& keys, int frame)
                    double(frame - before.key()) / double(next.key() - before.key()));
 }
 
+QPointF originIn(const QSize& size)
+{
+    return QPoint(size.width() / 2, size.height() / 2);
+}
+
 QTransform canvasToImage(const QTransform& view, const QSize& size)
 {
-    const double x = size.width() / 2.0;
-    const double y = size.height() / 2.0;
-    return QTransform::fromTranslate(-x, -y) * view * QTransform::fromTranslate(x, y);
+    const QPointF origin = originIn(size);
+    return QTransform::fromTranslate(-origin.x(), -origin.y()) * view *
+           QTransform::fromTranslate(origin.x(), origin.y());
 }
 
 std::optional<CameraKeys> readCamera(const Parts& parts, const LayerRows& rows, ViewReader* view, int row,

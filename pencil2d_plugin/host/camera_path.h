@@ -18,6 +18,9 @@ using CameraKeys = QMap<int, QTransform>;
 /// the matrix goes evenly from one to the other, as Pencil2D 0.6 does.
 QTransform cameraAt(const CameraKeys& keys, int frame);
 
+/// Where Pencil2D's origin lies in an exported picture of this size: its centre, in whole pixels.
+QPointF originIn(const QSize& size);
+
 /// Canvas to exported picture under this view, for pictures of this size.
 QTransform canvasToImage(const QTransform& view, const QSize& size);
 

@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr int SurveyMs = 50;
+constexpr int MaxLayerAttempts = 20; ///< the list is not laid out at once
 const QSize DefaultCanvas(800, 600);
 
 } // namespace
@@ -102,6 +103,8 @@ void Pencil2DHost::setToolPanel(QWidget* panel)
 
 void Pencil2DHost::addDock(QDockWidget* dock)
 {
+    if (mParts.window == nullptr)
+        return;
     mParts.window->addDockWidget(Qt::RightDockWidgetArea, dock);
     if (auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuWindows")))
         menu->addAction(dock->toggleViewAction());
@@ -109,6 +112,8 @@ void Pencil2DHost::addDock(QDockWidget* dock)
 
 void Pencil2DHost::addAnimationAction(QAction* action)
 {
+    if (mParts.window == nullptr)
+        return;
     if (auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuAnimation")))
         menu->addAction(action);
     else
@@ -117,7 +122,8 @@ void Pencil2DHost::addAnimationAction(QAction* action)
 
 void Pencil2DHost::showStatus(const QString& text, int milliseconds)
 {
-    mParts.window->statusBar()->showMessage(text, milliseconds);
+    if (mParts.window != nullptr)
+        mParts.window->statusBar()->showMessage(text, milliseconds);
 }
 
 std::optional<QTransform> Pencil2DHost::canvasToWidget() const
@@ -125,9 +131,9 @@ std::optional<QTransform> Pencil2DHost::canvasToWidget() const
     const auto matrices = mView.read();
     if (!matrices)
         return std::nullopt;
-    const QTransform toOrigin =
-        QTransform::fromTranslate(-mCanvasSize.width() / 2.0, -mCanvasSize.height() / 2.0);
-    return toOrigin * matrices->widget;
+    const QPointF origin = originIn(mCanvasSize);
+    const QTransform toOrigin = QTransform::fromTranslate(-origin.x(), -origin.y());
+    return toOrigin * snapped(matrices->widget);
 }
 
 QColor Pencil2DHost::paper() const
@@ -215,6 +221,8 @@ void Pencil2DHost::onExported(int frame, const QImage& image)
 
 void Pencil2DHost::survey()
 {
+    if (mParts.window == nullptr)
+        return;
     auto* selection = mParts.window->findChild<QMenu*>(QStringLiteral("menuSelection"));
     const bool selecting = selection != nullptr && selection->isEnabled();
     if (!mIdleness.isIdle() || isPlaying() || selecting)
@@ -232,7 +240,13 @@ void Pencil2DHost::survey()
         const Idleness::Work work(&mIdleness);
         const QVector<Layer> layers = mRows.read();
         mLayersAnswer = !layers.isEmpty();
-        mLayersKnown = true;
+        mLayersKnown = mLayersAnswer || ++mLayerAttempts >= MaxLayerAttempts;
+        if (!mLayersKnown)
+        {
+            mSurvey.start();
+            return;
+        }
+        mLayerAttempts = 0;
         mLayers = layers;
         mQueue.setLayers(layers);
         const int row = mRows.currentRow();

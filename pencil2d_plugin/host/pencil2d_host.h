@@ -79,6 +79,7 @@ private:
     QString mCameraName;
     QSize mCanvasSize;
     mutable QColor mPaper;
+    int mLayerAttempts = 0;
     bool mLayersKnown = false;
     bool mCameraKnown = false;
     bool mOnCamera = false; ///< the current layer is a camera

@@ -73,6 +73,8 @@ void ProjectWatch::onLoaded()
 
 void ProjectWatch::settle()
 {
+    if (mParts.window == nullptr)
+        return;
     // A project still being read shows its progress in a modal dialog.
     if (QApplication::activeModalWidget() != nullptr)
     {

@@ -114,6 +114,21 @@ double zoomOf(const QString& label)
                             : 0;
 }
 
+QTransform snapped(const QTransform& widget)
+{
+    const auto whole = [](double value)
+    {
+        return std::abs(value - std::round(value)) < Tolerance;
+    };
+    if (std::abs(widget.m12()) > Tolerance || std::abs(widget.m21()) > Tolerance || !whole(widget.m11()) ||
+        !whole(widget.m22()) || std::abs(widget.m11()) < 0.5)
+    {
+        return widget;
+    }
+    return QTransform(widget.m11(), 0, 0, widget.m22(), std::floor(widget.dx() + 0.5),
+                      std::floor(widget.dy() + 0.5));
+}
+
 bool ViewReader::find()
 {
     const QByteArray bytes = readSafely(mParts.view, SearchBytes);

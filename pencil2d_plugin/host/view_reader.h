@@ -43,6 +43,10 @@ int findMatrices(const QByteArray& bytes, const QSize& widget, bool flipX, bool 
 /// The zoom that the status bar shows, as a factor; 0 if there is none.
 double zoomOf(const QString& label);
 
+/// The view as it is painted: unrotated and at a whole zoom, Pencil2D paints its bitmaps at the nearest
+/// whole pixel (half a pixel goes up, in logical pixels also on dense screens).
+QTransform snapped(const QTransform& widget);
+
 class ViewReader
 {
 public:

@@ -139,7 +139,7 @@ private:
         QTest::mouseRelease(canvas, Qt::LeftButton, Qt::NoModifier, to);
     }
 
-    void compareMarks(const char* view)
+    void compareMarks(const char* view, double tolerance = 0.75)
     {
         QTest::qWait(30);
         const auto mapping = mHost->canvasToWidget();
@@ -155,7 +155,7 @@ private:
             const auto found = centroid(shown, mark.colour);
             QVERIFY2(found.has_value(), view);
             const double error = QLineF(expected, *found).length();
-            QVERIFY2(error < 1,
+            QVERIFY2(error < tolerance,
                      qPrintable(QStringLiteral("%1: off by %2").arg(QLatin1String(view)).arg(error)));
             mWorst = qMax(mWorst, error);
         }
@@ -238,7 +238,8 @@ private Q_SLOTS:
 
     void viewIsRight()
     {
-        compareMarks("start");
+        constexpr double Exact = 0.01;
+        compareMarks("start", Exact);
         for (const char* zoom : {"actionZoom33", "actionZoom300", "actionZoom100"})
         {
             trigger(zoom);
@@ -255,9 +256,9 @@ private Q_SLOTS:
         QTest::mouseClick(mHost->window()->findChild<QToolButton*>(QStringLiteral("handButton")),
                           Qt::LeftButton);
         stroke(mHost->canvas()->rect().center(), mHost->canvas()->rect().center() + QPoint(57, -33));
-        compareMarks("panned");
+        compareMarks("panned", Exact);
         mHost->window()->resize(1651, 1201);
-        compareMarks("resized");
+        compareMarks("resized", Exact);
         trigger("actionReset_View");
         qInfo("marks at most %.3f px off", mWorst);
     }
@@ -406,6 +407,9 @@ public:
         connect(timer, &QTimer::timeout, timer,
                 [timer]
                 {
+                    // A project being opened shows its progress; begun now, the tests would hold it up.
+                    if (QApplication::activeModalWidget() != nullptr)
+                        return;
                     Host* host = createHost(timer);
                     if (host == nullptr || host->projectPath().isEmpty())
                     {

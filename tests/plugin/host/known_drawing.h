@@ -12,7 +12,7 @@ namespace known
 {
 
 constexpr int Frames = 3;
-const QSize Canvas(640, 480);
+const QSize Canvas(641, 481);   ///< odd, to tell halves from whole pixels
 const QPoint Corner(-120, -90); ///< of the colours, from the canvas's centre
 const QSize Colours(300, 200);
 
@@ -69,7 +69,7 @@ inline QImage exported(int frame, bool withInk)
 /// Centre of a mark in canvas pixels from the top left corner.
 inline QPointF centre(const Mark& mark)
 {
-    return QRectF(mark.rect).center() + Corner + QPointF(Canvas.width() / 2.0, Canvas.height() / 2.0);
+    return QRectF(mark.rect).center() + Corner + QPoint(Canvas.width() / 2, Canvas.height() / 2);
 }
 
 /// A zip of stored entries, which is what a .pclx is.
@@ -157,7 +157,7 @@ inline bool writeProject(const QString& path, const QByteArray& camera)
     zip.add("main.xml",
             "<!DOCTYPE PencilDocument><document><projectdata><currentFrame value=\"1\"/>"
             "<currentLayer value=\"3\"/><fps value=\"12\"/></projectdata><object>"
-            "<layer id=\"1\" name=\"Film\" visibility=\"1\" type=\"5\" width=\"640\" height=\"480\">" +
+            "<layer id=\"1\" name=\"Film\" visibility=\"1\" type=\"5\" width=\"641\" height=\"481\">" +
                 camera +
                 "</layer><layer id=\"2\" name=\"Path\" visibility=\"1\" type=\"2\"/>"
                 "<layer id=\"5\" name=\"Song\" visibility=\"1\" type=\"4\"/>"

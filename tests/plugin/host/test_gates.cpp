@@ -1,4 +1,197 @@
-int main()
+// Builds of Pencil2D that lack this or that: each ability falls on its own, nothing crashes.
+#include "host/export_dialog.h"
+#include "host/pencil2d_host.h"
+
+#include <QDialog>
+#include <QGridLayout>
+#include <QLabel>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QTest>
+
+#include <memory>
+
+class ScribbleArea : public QWidget
 {
-    return 0;
+    Q_OBJECT
+};
+
+class Editor : public QObject
+{
+    Q_OBJECT
+Q_SIGNALS:
+    void scrubbed(int);
+    void objectLoaded();
+};
+
+class PlaybackManager : public QObject
+{
+    Q_OBJECT
+Q_SIGNALS:
+    void playStateChanged(bool);
+};
+
+class LayerManager : public QObject
+{
+    Q_OBJECT
+Q_SIGNALS:
+    void currentLayerChanged(int);
+};
+
+class ViewManager : public QObject
+{
+    Q_OBJECT
+Q_SIGNALS:
+    void viewChanged();
+};
+
+class ToolOptionWidget : public QDockWidget
+{
+    Q_OBJECT
+};
+
+class TimeLineCells : public QWidget
+{
+    Q_OBJECT
+public Q_SLOTS:
+    void vScrollChange(int) {}
+};
+
+class MainWindow2 : public QMainWindow
+{
+    Q_OBJECT
+};
+
+using namespace lampblack;
+using Ability = Host::Ability;
+
+namespace
+{
+
+/// A window with nothing in it but what every Pencil2D has.
+std::unique_ptr<MainWindow2> bareWindow()
+{
+    auto window = std::make_unique<MainWindow2>();
+    window->setCentralWidget(new ScribbleArea);
+    (new Editor)->setParent(window.get());
+    window->show();
+    return window;
 }
+
+QVector<Ability> abilities(const MainWindow2& window)
+{
+    QVector<Ability> can;
+    const Parts parts = findParts(const_cast<MainWindow2*>(&window));
+    for (const Ability ability : {Ability::Palette, Ability::Panel, Ability::Frames, Ability::Layers,
+                                  Ability::View, Ability::Undo, Ability::Project})
+    {
+        if (whyNot(parts, ability).isEmpty())
+            can.append(ability);
+    }
+    return can;
+}
+
+} // namespace
+
+class Gates : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void otherProgramsAreLeftAlone()
+    {
+        QMainWindow other;
+        other.show();
+        QVERIFY(createHost(nullptr) == nullptr);
+        MainWindow2 hidden;
+        QVERIFY(createHost(nullptr) == nullptr);
+        MainWindow2 empty;
+        empty.show();
+        QTest::ignoreMessage(QtInfoMsg, "Lampblack: this is not a Pencil2D that it knows.");
+        QVERIFY(createHost(nullptr) == nullptr);
+    }
+
+    void eachAbilityStandsAlone()
+    {
+        const auto window = bareWindow();
+        QCOMPARE(abilities(*window), QVector<Ability>({Ability::Project}));
+
+        auto* undo = new QAction(window.get());
+        undo->setObjectName(QStringLiteral("actionUndo"));
+        QCOMPARE(abilities(*window), QVector<Ability>({Ability::Undo, Ability::Project}));
+
+        auto* options = new ToolOptionWidget;
+        auto* page = new QWidget;
+        page->setLayout(new QGridLayout);
+        options->setWidget(page);
+        window->addDockWidget(Qt::LeftDockWidgetArea, options);
+        QVERIFY(abilities(*window).contains(Ability::Panel));
+
+        auto* sequence = new QAction(window.get());
+        sequence->setObjectName(QStringLiteral("actionExport_ImageSeq"));
+        QVERIFY(!abilities(*window).contains(Ability::Frames));
+        (new PlaybackManager)->setParent(window.get());
+        QVERIFY(abilities(*window).contains(Ability::Frames));
+
+        (new ViewManager)->setParent(window.get());
+        QVERIFY(abilities(*window).contains(Ability::View));
+        QVERIFY(!abilities(*window).contains(Ability::Palette));
+    }
+
+    void bareHostSaysWhyNot()
+    {
+        const auto window = bareWindow();
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QVERIFY(host != nullptr);
+        QVERIFY(!host->can(Ability::Frames));
+        QVERIFY(host->whyNot(Ability::Frames).endsWith(QLatin1Char('.')));
+        QVERIFY(!host->canvasToWidget().has_value());
+        QSignalSpy failed(host.get(), &Host::exportFailed);
+        host->requestFrames(1, 2);
+        QCOMPARE(failed.size(), 2);
+        QAction tool;
+        tool.setCheckable(true);
+        host->addTool(&tool);
+        host->setToolPanel(new QLabel);
+        tool.setChecked(true);
+        QTest::qWait(100);
+        QVERIFY(host->layers().isEmpty());
+        QVERIFY(!host->openProject(QStringLiteral("/nowhere.pclx")));
+    }
+
+    void viewThatDoesNotAnswerIsNotKnown()
+    {
+        const auto window = bareWindow();
+        (new ViewManager)->setParent(window.get());
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QVERIFY(!host->can(Ability::View));
+        QVERIFY(!host->canvasToWidget().has_value());
+    }
+
+    void strangeExportDialogFails()
+    {
+        const auto window = bareWindow();
+        auto* sequence = new QAction(window.get());
+        sequence->setObjectName(QStringLiteral("actionExport_ImageSeq"));
+        connect(sequence, &QAction::triggered, window.get(), [] { QDialog().exec(); });
+        ExportDialog dialog(findParts(window.get()));
+        const Exported exported = dialog.run(1, 3, {}, QStringLiteral("/nowhere"));
+        QVERIFY(exported.files.isEmpty());
+        QVERIFY(!exported.fault.isEmpty());
+    }
+
+    void windowMayGoFirst()
+    {
+        auto window = bareWindow();
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        window.reset();
+        QVERIFY(host->window() == nullptr && host->canvas() == nullptr);
+        QVERIFY(!host->can(Ability::View) && !host->canvasToWidget().has_value());
+        host->requestFrames(1, 1);
+        host->showStatus(QStringLiteral("late"));
+        QTest::qWait(100);
+    }
+};
+
+QTEST_MAIN(Gates)
+#include "test_gates.moc"

@@ -1,4 +1,150 @@
-int main()
+// The view found in foreign memory, and the camera between its key frames.
+#include "host/camera_path.h"
+#include "host/project_watch.h"
+#include "host/transport.h"
+#include "host/view_reader.h"
+
+#include <QTest>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+using namespace lampblack;
+
+namespace
 {
-    return 0;
+
+const QSize Widget(301, 510);
+
+struct FakeView
+{
+    std::array<quint64, 3> before{0xdeadbeef, 1, 2};
+    QTransform view, viewInverse, widget, widgetInverse, centre;
+    std::array<double, 4> after{1, 2, 3, 4};
+};
+
+FakeView fakeView(double zoom, double angle, bool flipX)
+{
+    FakeView fake;
+    fake.view = QTransform().translate(30, -7).rotate(angle).scale(zoom, zoom);
+    fake.viewInverse = fake.view.inverted();
+    fake.centre = QTransform::fromTranslate(Widget.width() / 2.0, Widget.height() / 2.0);
+    fake.widget = fake.view * QTransform::fromScale(flipX ? -1 : 1, 1) * fake.centre;
+    fake.widgetInverse = fake.widget.inverted();
+    return fake;
 }
+
+QByteArray bytesOf(const FakeView& fake)
+{
+    return QByteArray(reinterpret_cast<const char*>(&fake), sizeof(fake));
+}
+
+} // namespace
+
+class ViewAndCamera : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void viewIsFound()
+    {
+        const FakeView fake = fakeView(1.468, 33, true);
+        const int offset = findMatrices(bytesOf(fake), Widget, true, false, 1.468);
+        QCOMPARE(offset, int(offsetof(FakeView, view)));
+        QCOMPARE(matricesAt(bytesOf(fake), offset)->widget, fake.widget);
+    }
+
+    void viewIsNotMistaken()
+    {
+        const QByteArray bytes = bytesOf(fakeView(1.468, 33, true));
+        QCOMPARE(findMatrices(bytes, Widget, false, false, 1.468), -1);
+        QCOMPARE(findMatrices(bytes, Widget, true, false, 1.5), -1);
+        QCOMPARE(findMatrices(bytes, QSize(640, 480), true, false, 1.468), -1);
+        QCOMPARE(findMatrices(bytes.left(300), Widget, true, false, 1.468), -1);
+        QCOMPARE(findMatrices(bytes + bytes, Widget, true, false, 1.468), -1);
+        QCOMPARE(findMatrices(QByteArray(1024, '\0'), Widget, false, false, 0), -1);
+        QCOMPARE(findMatrices(QByteArray(1024, '\xff'), Widget, false, false, 0), -1);
+        QCOMPARE(findMatrices({}, Widget, false, false, 0), -1);
+    }
+
+    void unreadableMemoryIsRefused()
+    {
+        const auto page = static_cast<int>(sysconf(_SC_PAGESIZE));
+        void* pages = mmap(nullptr, size_t(page) * 2, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        QVERIFY(pages != MAP_FAILED);
+        char* second = static_cast<char*>(pages) + page;
+        QCOMPARE(mprotect(second, size_t(page), PROT_NONE), 0);
+        QCOMPARE(readSafely(second - 1024, 1024).size(), 1024);
+        QVERIFY(readSafely(second - 512, 1024).isEmpty());
+        QVERIFY(readSafely(nullptr, 8).isEmpty());
+        munmap(pages, size_t(page) * 2);
+    }
+
+    void wholeZoomsSnap()
+    {
+        const QTransform half(3, 0, 0, -3, 10.5, 20.25);
+        QCOMPARE(snapped(half), QTransform(3, 0, 0, -3, 11, 20));
+        for (const QTransform& kept :
+             {QTransform(0.33, 0, 0, 0.33, 10.5, 20.25), QTransform(0, 1, -1, 0, 0.5, 0.5)})
+            QCOMPARE(snapped(kept), kept);
+    }
+
+    void zoomIsRead()
+    {
+        QCOMPARE(zoomOf(QStringLiteral("Zoom: 146.8%")), 1.468);
+        QCOMPARE(zoomOf(QStringLiteral("Vergrößerung: 33,0 %")), 0.33);
+        QCOMPARE(zoomOf(QStringLiteral("Ready")), 0.0);
+    }
+
+    void cameraGoesEvenly()
+    {
+        const QTransform a = QTransform::fromTranslate(10, 0);
+        const QTransform b(2, 0, 0, 2, 30, 8);
+        const CameraKeys keys{{3, a}, {7, b}};
+        QCOMPARE(cameraAt(keys, 1), a);
+        QCOMPARE(cameraAt(keys, 3), a);
+        QCOMPARE(cameraAt(keys, 4), QTransform(1.25, 0, 0, 1.25, 15, 2));
+        QCOMPARE(cameraAt(keys, 7), b);
+        QCOMPARE(cameraAt(keys, 90), b);
+        QVERIFY(cameraAt({}, 5).isIdentity());
+    }
+
+    void cameraTurnsAboutThePicturesCentre()
+    {
+        const QSize size(641, 480);
+        const QTransform turned = canvasToImage(QTransform().rotate(90).scale(2, 2), size);
+        QCOMPARE(turned.map(originIn(size)), originIn(size));
+        QCOMPARE(turned.map(originIn(size) + QPointF(10, 0)), originIn(size) + QPointF(0, 20));
+        QVERIFY(canvasToImage(QTransform(), size).isIdentity());
+    }
+
+    void titlesNameProjects_data()
+    {
+        QTest::addColumn<QString>("title");
+        QTest::addColumn<QString>("path");
+        QTest::newRow("project") << QStringLiteral("[*]/shots/a walk.pclx")
+                                 << QStringLiteral("/shots/a walk.pclx");
+        QTest::newRow("old format") << QStringLiteral("[*]/shots/walk.pcl")
+                                    << QStringLiteral("/shots/walk.pcl");
+        QTest::newRow("untitled") << QStringLiteral("[*]Pencil2D 0.6.6") << QString();
+        QTest::newRow("nightly") << QStringLiteral("[*]Pencil2D Nightly Build Aug/16/2022") << QString();
+        QTest::newRow("empty") << QStringLiteral("[*]") << QString();
+    }
+
+    void titlesNameProjects()
+    {
+        QFETCH(QString, title);
+        QTEST(projectOf(title), "path");
+    }
+
+    void timeLabelsNameFrames()
+    {
+        QCOMPARE(frameOf(QStringLiteral("0012")), 12);
+        QCOMPARE(frameOf(QStringLiteral("00:01:03 | 0015")), 15);
+        QCOMPARE(frameOf(QStringLiteral("00:01:03")), 0);
+        QCOMPARE(frameOf(QString()), 0);
+    }
+};
+
+QTEST_APPLESS_MAIN(ViewAndCamera)
+#include "test_view_and_camera.moc"
