@@ -5,6 +5,7 @@
 //   lampblack_conformance --mutate VECTORS DIR COUNT SEED  write COUNT mutated messages as cases
 //   lampblack_conformance --scene FILE...    one line a scene file: the scene, or {"fault": ...}
 //   lampblack_conformance --copy-scene FROM TO  read a scene file and write it again
+//   lampblack_conformance --default-scene WIDTH HEIGHT  the scene that a project starts with
 #include "mutator.h"
 #include "scene/scene_file.h"
 #include "vectors.h"
@@ -85,6 +86,10 @@ int main(int argc, char** argv)
         const auto read = readSceneFile(arguments.value(1));
         const auto* scene = std::get_if<Scene>(&read);
         return scene != nullptr && !writeSceneFile(arguments.value(2), *scene) ? 0 : 1;
+    }
+    if (mode == QLatin1String("--default-scene"))
+    {
+        return print(toJson(defaultScene({arguments.value(1).toInt(), arguments.value(2).toInt()})));
     }
     const bool scenes = mode == QLatin1String("--scene");
     int failed = 0;
