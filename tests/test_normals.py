@@ -9,14 +9,17 @@ import trimesh
 from numpy.typing import NDArray
 
 from lampblack.normals.card import NetworkCard
-from lampblack.normals.evaluate import flat_normals
-from lampblack.normals.gbuffer import MARGIN, trace, view_rotation
-from lampblack.normals.linework import Hand, draw_lines
-from lampblack.normals.models import Model
-from lampblack.normals.network import DILATIONS, DilatedUNet, build_network, normal_loss
+from lampblack.normals.dataset.gbuffer import MARGIN, trace, view_rotation
+from lampblack.normals.dataset.linework import Hand, draw_lines
+from lampblack.normals.dataset.models import Model
+from lampblack.normals.figure import MARGIN as CANVAS_MARGIN
+from lampblack.normals.figure import canvas_for, canvases, lay
+from lampblack.normals.networks import DilatedUNet, FigureNet, StridedUNet, build_network
+from lampblack.normals.networks.dilated_unet import DILATIONS
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.silhouette import inflated_normals, lumo_normals
+from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
+from lampblack.normals.training.tiles import normal_loss
 
 Image = NDArray[np.float32]
 
@@ -40,10 +43,17 @@ def sphere_model() -> Model:
     return Model("sphere", vertices, mesh.faces.astype(np.int32), vertices[mesh.faces], False)
 
 
-def quiet_network(seed: int = 0) -> NormalPredictor:
+def quiet_network(architecture: str, seed: int = 0) -> NormalPredictor:
     """An untrained predictor: enough for all that does not depend on the weights."""
     torch.manual_seed(seed)
-    return NormalPredictor(build_network(NetworkCard()), NetworkCard())
+    network = build_network(architecture)
+    if isinstance(network, FigureNet):  # it starts as Lumo, which would hide its faults
+        torch.nn.init.normal_(network.normals.weight, std=0.02)
+    px = (128, 128) if architecture == "figure-net" else (256, 640)
+    return NormalPredictor(network, NetworkCard(architecture, px))
+
+
+both_kinds = pytest.mark.parametrize("architecture", ["figure-net", "dilated-unet"])
 
 
 def test_trace_of_a_sphere_is_exact() -> None:
@@ -136,10 +146,53 @@ def test_loss_is_one_minus_cosine_for_unit_normals() -> None:
     assert normal_loss(a, b, mask).item() == pytest.approx(expected.item(), rel=1e-5)
 
 
-def test_prediction_is_unit_inside_and_faces_the_viewer() -> None:
+def test_the_predecessor_sees_no_mask_and_has_its_size() -> None:
+    network = StridedUNet()
+    assert 4.4e6 < sum(p.numel() for p in network.parameters()) < 5.0e6
+    tiles = torch.rand(1, 4, TILE, TILE)
+    tiles[:, 3] = 1
+    seen = network(tiles)
+    tiles[:, 3, :, :100] = 0
+    assert torch.allclose(network(tiles)[..., 100:], seen[..., 100:])
+    assert torch.allclose(seen.norm(dim=1), torch.ones(1, TILE, TILE), atol=1e-4)
+
+
+@pytest.mark.parametrize("shape", [(100, 100), (300, 80), (41, 333), (1, 900)])
+def test_a_figure_lies_in_the_middle_of_the_canvas_it_fills_best(shape: tuple[int, int]) -> None:
+    canvas = canvas_for(shape, 256)
+    assert canvas.shape in canvases(256)
+    rows, columns = canvas.inner
+    for side, size in zip((rows, columns), canvas.shape, strict=True):
+        assert side.start == size - side.stop >= CANVAS_MARGIN - 1
+    laid = lay(np.ones((*shape, 1), np.float32), canvas)
+    assert laid[canvas.inner].min() > 0.99
+    assert laid.sum() == pytest.approx(laid[canvas.inner].sum())
+
+
+def test_the_figure_network_starts_as_lumo() -> None:
+    torch.manual_seed(0)
+    mask, _ = ball(300, 120.0)
+    card = NetworkCard("figure-net", (256, 256), roundness=1.0)
+    found = NormalPredictor(build_network("figure-net"), card).predict(mask * np.float32(0), mask)
+    assert angles(found, lumo_normals(mask))[mask].mean() < 5
+
+
+def test_a_mirrored_figure_has_mirrored_normals() -> None:
+    rng = np.random.default_rng(0)
+    lines = rng.random((210, 143)).astype(np.float32)
+    mask = rng.random((210, 143)) < 0.9
+    mask[:, :60] |= True
+    predictor = quiet_network("figure-net")
+    here = predictor.predict(lines, mask)
+    there = predictor.predict(lines[:, ::-1].copy(), mask[:, ::-1].copy())[:, ::-1] * [-1, 1, 1]
+    assert angles(here, there.astype(np.float32))[mask].mean() < 0.5
+
+
+@both_kinds
+def test_prediction_is_unit_inside_and_faces_the_viewer(architecture: str) -> None:
     mask, _ = ball(300, 120.0)
     lines = np.zeros(mask.shape, np.float32)
-    found = quiet_network().predict(lines, mask, grids=2)
+    found = quiet_network(architecture).predict(lines, mask)
     assert found.shape == (300, 300, 3)
     assert found.dtype == np.float32
     assert np.allclose(np.linalg.norm(found[mask], axis=1), 1, atol=1e-5)
@@ -147,9 +200,10 @@ def test_prediction_is_unit_inside_and_faces_the_viewer() -> None:
     assert not found[~mask].any()
 
 
+@both_kinds
 @pytest.mark.parametrize("size", [300, 900])
-def test_a_shifted_figure_keeps_its_normals_to_the_bit(size: int) -> None:
-    """Grids are anchored to the figure: no flicker under translation."""
+def test_a_shifted_figure_keeps_its_normals_to_the_bit(architecture: str, size: int) -> None:
+    """Everything is anchored to the figure: no flicker under translation."""
     small, _ = ball(size, size * 0.4)
     mask = np.zeros((size + 60, size + 60), bool)
     moved = mask.copy()
@@ -157,26 +211,34 @@ def test_a_shifted_figure_keeps_its_normals_to_the_bit(size: int) -> None:
     lines = np.random.default_rng(0).random((size, size)).astype(np.float32) * small
     drawn, drawn_moved = (np.zeros(mask.shape, np.float32) for _ in range(2))
     drawn[:size, :size], drawn_moved[37 : 37 + size, 11 : 11 + size] = lines, lines
-    predictor = quiet_network()
-    here = predictor.predict(drawn, mask, grids=2)[:size, :size]
-    there = predictor.predict(drawn_moved, moved, grids=2)[37 : 37 + size, 11 : 11 + size]
+    predictor = quiet_network(architecture)
+    here = predictor.predict(drawn, mask)[:size, :size]
+    there = predictor.predict(drawn_moved, moved)[37 : 37 + size, 11 : 11 + size]
     assert np.array_equal(here, there)
 
 
+@both_kinds
 @pytest.mark.parametrize("shape", [(1, 1), (1, 40), (2000, 3), (5, 5)])
-def test_specks_and_slivers_are_predicted(shape: tuple[int, int]) -> None:
+def test_specks_and_slivers_are_predicted(architecture: str, shape: tuple[int, int]) -> None:
     mask = np.ones(shape, bool)
-    found = quiet_network().predict(np.ones(shape, np.float32), mask, grids=1)
+    found = quiet_network(architecture).predict(np.ones(shape, np.float32), mask)
     assert np.allclose(np.linalg.norm(found, axis=2), 1, atol=1e-5)
 
 
 def test_nothing_drawn_predicts_nothing() -> None:
     mask = np.zeros((30, 20), bool)
-    assert not quiet_network().predict(np.zeros((30, 20), np.float32), mask).any()
+    predictor = quiet_network("figure-net")
+    assert not predictor.predict(np.zeros((30, 20), np.float32), mask).any()
     with pytest.raises(ValueError, match="grids"):
-        quiet_network().predict(np.zeros((30, 20), np.float32), mask, grids=0)
+        predictor.predict(np.zeros((30, 20), np.float32), mask, grids=65)
     with pytest.raises(ValueError, match="equal"):
-        quiet_network().predict(np.zeros((30, 21), np.float32), mask)
+        predictor.predict(np.zeros((30, 21), np.float32), mask)
+
+
+def test_tiles_of_the_papers_network_stay_available() -> None:
+    mask, truth = ball(200, 80.0)
+    found = NormalPredictor().predict(np.zeros(mask.shape, np.float32), mask, grids=2)
+    assert angles(found, truth)[mask].mean() < 30
 
 
 def test_shipped_network_rounds_a_ball() -> None:

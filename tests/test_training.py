@@ -12,12 +12,16 @@ import trimesh
 
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard, load_network, save_network, shipped_weights
-from lampblack.normals.evaluate import evaluate
-from lampblack.normals.models import find_models, load_model
-from lampblack.normals.network import build_network
-from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.train import Progress, TrainingOptions, train
-from lampblack.normals.views import random_views
+from lampblack.normals.dataset.build import DatasetOptions, build_dataset
+from lampblack.normals.dataset.models import find_models, load_model
+from lampblack.normals.dataset.triple import Triple
+from lampblack.normals.figure import LUMO
+from lampblack.normals.networks import build_network
+from lampblack.normals.training.checkpoint import Progress
+from lampblack.normals.training.figure_loss import angles
+from lampblack.normals.training.figures import figure_of, sample
+from lampblack.normals.training.tiles import view_of
+from lampblack.normals.training.train import TrainingOptions, train
 
 
 @pytest.fixture
@@ -52,8 +56,20 @@ def test_broken_meshes_are_refused(tmp_path: Path, name: str, content: bytes) ->
         find_models(tmp_path / "nowhere")
 
 
-def test_views_mirror_the_normals_with_the_drawing(models: Path) -> None:
-    view = next(random_views(find_models(models), 0, (256, 300)))
+@pytest.fixture
+def data(models: Path, tmp_path: Path) -> Path:
+    folder = tmp_path / "data"
+    options = DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
+    build_dataset(models, folder, None, options)
+    return folder
+
+
+def one_triple(data: Path) -> Triple:
+    return Triple.load(sorted(data.rglob("*.npz"))[0])
+
+
+def test_tiles_mirror_the_normals_with_the_drawing(data: Path) -> None:
+    view = view_of(one_triple(data), np.random.default_rng(0))
     for seed in range(6):
         tile, truth = view.tile(np.random.default_rng(seed))
         inside = tile[3] > 0
@@ -65,47 +81,88 @@ def test_views_mirror_the_normals_with_the_drawing(models: Path) -> None:
         assert np.corrcoef(columns, truth[0][inside])[0, 1] > 0.3
 
 
-def test_training_goes_on_where_it_was_stopped(models: Path, tmp_path: Path) -> None:
+def test_whole_figures_mirror_every_map_with_the_drawing(data: Path) -> None:
+    figure = figure_of(one_triple(data), np.random.default_rng(0), 96)
+    for seed in range(6):
+        fine, coarse, truth, auxiliary = sample(figure, np.random.default_rng(seed))
+        inside = fine[1] > 0
+        assert np.allclose(np.linalg.norm(truth, axis=0)[inside], 1, atol=0.02)
+        cells = inside.reshape(24, 4, 24, 4).mean((1, 3)) > 0.9
+        _rows, columns = np.nonzero(cells)
+        # Lumo's x, the distance's fall and the place follow the truth's x, mirrored or not.
+        outwards = truth[0].reshape(24, 4, 24, 4).mean((1, 3))[cells]
+        assert np.corrcoef(columns, outwards)[0, 1] > 0.3
+        assert np.corrcoef(coarse[LUMO][0][cells], outwards)[0, 1] > 0.7
+        assert np.corrcoef(coarse[4][cells], outwards)[0, 1] < -0.3
+        assert np.corrcoef(coarse[8][cells], outwards)[0, 1] > 0.7
+        assert (
+            np.corrcoef(auxiliary[0][cells], truth[2].reshape(24, 4, 24, 4).mean((1, 3))[cells])[
+                0, 1
+            ]
+            > 0.7
+        )
+
+
+def test_angles_are_angles() -> None:
+    a = torch.nn.functional.normalize(torch.randn(2, 3, 5, 5), dim=1)
+    b = torch.nn.functional.normalize(torch.randn(2, 3, 5, 5), dim=1)
+    assert torch.allclose(angles(a, b), (a * b).sum(dim=1).acos(), atol=2e-2)
+    assert angles(a, a).max() < 2e-3
+
+
+class Enough(Exception):
+    """Ends a run from its report."""
+
+
+def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     steps: list[int] = []
 
-    def interrupt_every_third(progress: Progress) -> None:
+    def stop_every_second(progress: Progress) -> None:
         steps.append(progress.step)
-        if progress.step % 3 == 0:
-            raise KeyboardInterrupt
+        if progress.step % 2 == 0:
+            raise Enough
 
+    card = NetworkCard("figure-net", (64, 96))
     for _ in range(2):
-        with pytest.raises(KeyboardInterrupt):
-            train(models, run, NetworkCard(), TrainingOptions(batch=2), interrupt_every_third)
-    assert steps == [1, 2, 3, 4, 5, 6]
-    network, card = load_network(run / "network.safetensors")
-    assert card.training is not None
-    assert card.training["steps"] == 6
-    table = evaluate(models, None, NormalPredictor(network, card), views=1, figure_px=96, grids=1)
-    assert table["inflate"]["mean_degrees"] < table["flat"]["mean_degrees"]
+        with pytest.raises(Enough):
+            train(data, run, card, TrainingOptions(batch=2, capacity=4), stop_every_second)
+    assert steps == [1, 2, 3, 4]
+    _, kept = load_network(run / "network.safetensors")
+    assert kept.training is not None
+    assert kept.training["steps"] == 4
+    other = NetworkCard("strided-unet")
+    with pytest.raises(LampblackError, match="another network"):
+        train(data, run, other, TrainingOptions())
 
 
-def test_models_and_runs_that_cannot_be_used_are_told(models: Path, tmp_path: Path) -> None:
-    barren = tmp_path / "barren"
-    barren.mkdir()
-    (barren / "a.obj").write_text("junk")
-    with pytest.raises(LampblackError, match="models"):
-        train(barren, tmp_path / "run", NetworkCard(), TrainingOptions())
-    (barren / "split.csv").write_text("name\na\n")
-    with pytest.raises(LampblackError):
-        find_models(barren, "train")
+@pytest.mark.parametrize("architecture", ["dilated-unet", "strided-unet"])
+def test_networks_of_tiles_share_the_trainer(data: Path, tmp_path: Path, architecture: str) -> None:
+    def stop(progress: Progress) -> None:
+        raise Enough
+
+    options = TrainingOptions(batch=1, capacity=1)
+    with pytest.raises(Enough):
+        train(data, tmp_path / "run", NetworkCard(architecture), options, stop)
+    _, kept = load_network(tmp_path / "run" / "network.safetensors")
+    assert kept.architecture == architecture
+
+
+def test_data_and_runs_that_cannot_be_used_are_told(data: Path, tmp_path: Path) -> None:
+    with pytest.raises(LampblackError, match="dataset build"):
+        train(tmp_path / "nowhere", tmp_path / "run", NetworkCard(), TrainingOptions())
     (tmp_path / "file").write_text("")
     with pytest.raises(LampblackError):
-        train(models, tmp_path / "file" / "run", NetworkCard(), TrainingOptions())
+        train(data, tmp_path / "file" / "run", NetworkCard(), TrainingOptions())
     (tmp_path / "run" / "checkpoint.safetensors").write_bytes(b"junk")
     with pytest.raises(LampblackError, match="damaged"):
-        train(models, tmp_path / "run", NetworkCard(), TrainingOptions())
+        train(data, tmp_path / "run", NetworkCard(), TrainingOptions())
 
 
 def test_weights_round_trip_and_foreign_files_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "net.safetensors"
     card = NetworkCard(measured={"val": 23.0})
-    network = build_network(card)
+    network = build_network(card.architecture)
     save_network(path, network, card)
     again, read = load_network(path)
     assert read == card

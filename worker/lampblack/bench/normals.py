@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from ..drawing import take_apart
 from ..normals.predict import DEFAULT_GRIDS, NormalPredictor
+from ..normals.predict_tiles import PAPER_GRIDS
 from ..surface import build_relief, guided_filter, solve
-
-PAPER_GRIDS = 20
 
 
 def bench_normals(picture: NDArray[np.uint8], runs: int = 5) -> dict[str, float]:

@@ -10,6 +10,7 @@ import typer
 from .. import __version__
 from .bench import bench
 from .console import EXIT_INTERRUPTED, console, for_people
+from .dataset import dataset
 from .doctor import doctor
 from .learn import evaluate, train
 from .render import render
@@ -41,6 +42,7 @@ def _interruptible(command: Callable[..., None]) -> Callable[..., None]:
 
 for command in (render, serve, normals, mesh, palette, scene, train, evaluate, bench, doctor):
     app.command()(_interruptible(command))
+app.add_typer(dataset, name="dataset")
 
 
 def _version(wanted: bool) -> None:

@@ -24,25 +24,28 @@ class NetworkCard:
     """What a weight file is and how to feed it.
 
     Attributes:
-        architecture: a name in ``network.ARCHITECTURES``.
+        architecture: a name in ``networks.ARCHITECTURES``.
         figure_px: (smallest, largest) long side of the figures it was trained on, pixels;
-            drawings outside are resized into that range.
+            drawings outside are resized into that range. A network of whole figures takes the
+            second for the side of the square whose area its canvas has.
+        roundness: factor on the slopes that undoes the flatness of its means.
         training: how it came to be, for people.
         measured: figures it reached, for people.
     """
 
-    architecture: str = "dilated-unet"
+    architecture: str = "figure-net"
     figure_px: tuple[Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]] = (
-        256,
-        640,
+        320,
+        320,
     )
+    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.5
     training: dict[str, Any] | None = None
     measured: dict[str, Any] | None = None
 
 
-def shipped_weights() -> Path:
+def shipped_weights(architecture: str = "dilated-unet") -> Path:
     """The weights that come with Lampblack."""
-    return Path(__file__).parent / "weights" / "dilated-unet.safetensors"
+    return Path(__file__).parent / "weights" / f"{architecture}.safetensors"
 
 
 def save_network(path: Path, network: nn.Module, card: NetworkCard) -> None:
@@ -60,7 +63,7 @@ def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
     Raises:
         LampblackError: a file is missing, is not what it says, or does not fit the network.
     """
-    from .network import ARCHITECTURES, build_network
+    from .networks import ARCHITECTURES, build_network
 
     path = path or shipped_weights()
     try:
@@ -72,7 +75,7 @@ def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
                 f"{path} is for a network named {card.architecture!r}.",
                 f"This Lampblack knows: {', '.join(ARCHITECTURES)}.",
             )
-        network = build_network(card)
+        network = build_network(card.architecture)
         tensors = {name: tensor.float() for name, tensor in load_file(path).items()}
         network.load_state_dict(tensors)
     except (OSError, SafetensorError, msgspec.DecodeError, RuntimeError) as error:

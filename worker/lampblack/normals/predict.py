@@ -1,4 +1,4 @@
-"""A whole normal map from a drawing: multi-grid diagonal sampling (paper, 3.1.4)."""
+"""A whole normal map from a drawing."""
 
 from __future__ import annotations
 
@@ -12,37 +12,46 @@ from torch import nn
 
 from .. import __version__
 from ..cache import digest
-from .card import NetworkCard, load_network
-from .tiles import TILE, TileSource, diagonal_grids
+from .card import NetworkCard, load_network, shipped_weights
+from .figure import resize
+from .networks import FigureNet
+from .predict_figure import figure_vectors
+from .predict_tiles import MAX_GRIDS, TILE_GRIDS, tile_vectors
 
-DEFAULT_GRIDS = 5
-MAX_GRIDS = 64
-ROUNDNESS = 1.5
-"""Factor on the slopes. On the validation models 1.5 brings the mean tilt away from the viewer
-within 4 degrees of the truth, from 13, for 0.2 degrees of mean angle; 1.2 serves the angle best,
-0.4 degrees better than 1.5."""
-
-_BATCH = 8
+DEFAULT_GRIDS = 0
+"""The whole figure at once."""
 
 
 class NormalPredictor:
-    """A trained network, ready to predict. Loads the shipped weights by default.
+    """Trained networks, ready to predict. Loads the shipped weights by default.
 
     ``identity`` names the weights, so that results can be kept for as long as they hold.
+
+    Args:
+        network, card: another network than the shipped one.
+        mirrored: see ``figure_vectors``.
 
     Raises:
         LampblackError: the weights cannot be used (see ``load_network``).
     """
 
-    def __init__(self, network: nn.Module | None = None, card: NetworkCard | None = None) -> None:
+    def __init__(
+        self,
+        network: nn.Module | None = None,
+        card: NetworkCard | None = None,
+        *,
+        mirrored: bool = True,
+    ) -> None:
         if network is None or card is None:
             network, card = load_network()
         self._network = network.to(memory_format=torch.channels_last).eval()  # type: ignore[call-overload]
+        self._mirrored = mirrored
+        self._tiles: NormalPredictor | None = None
         self.card = card
         self.identity = digest(
             __version__,
-            ROUNDNESS,
             card,
+            mirrored,
             *(tensor.numpy() for tensor in self._network.state_dict().values()),
         )
 
@@ -59,7 +68,8 @@ class NormalPredictor:
         Args:
             lines: (H, W) float32 ink in 0..1.
             mask: (H, W) bool.
-            grids: how many diagonally shifted grids are averaged, 1 to 64.
+            grids: 0 for the whole figure at once; 1 to 64 for the paper's network instead, on
+                so many diagonally shifted grids of tiles. A network of tiles takes 5 for 0.
             progress: told the share done, 0 to 1.
 
         Returns:
@@ -70,8 +80,11 @@ class NormalPredictor:
         """
         if lines.shape != mask.shape or lines.ndim != 2:
             raise ValueError(f"lines {lines.shape} and mask {mask.shape} must be equal (H, W)")
-        if not 1 <= grids <= MAX_GRIDS:
-            raise ValueError(f"grids must be 1 to {MAX_GRIDS}, not {grids}")
+        if not 0 <= grids <= MAX_GRIDS:
+            raise ValueError(f"grids must be 0 to {MAX_GRIDS}, not {grids}")
+        whole = isinstance(self._network, FigureNet)
+        if whole and grids:
+            return self._paper().predict(lines, mask, grids=grids, progress=progress)
         normals = np.zeros((*mask.shape, 3), np.float32)
         if not mask.any():
             return normals
@@ -79,65 +92,47 @@ class NormalPredictor:
         # the canvas keeps its normals to the last bit.
         box = _bounding_box(mask)
         figure_lines, figure_mask, inner = _past_the_canvas(lines[box], mask[box], box, mask.shape)
-        scale = self._scale(max(figure_mask.shape))
-        small_lines, small_mask = _resize_figure(figure_lines, figure_mask, scale)
-        vectors = self._average_grids(small_lines, small_mask, grids, progress)
-        vectors = _extend_outside(_round_off(vectors), small_mask)
-        vectors = _resize(vectors, figure_mask.shape)[inner]
+        if whole:
+            vectors, small_mask = figure_vectors(
+                self._network,
+                self.card.figure_px[1],
+                figure_lines,
+                figure_mask,
+                mirrored=self._mirrored,
+            )
+        else:
+            scale = self._scale(max(figure_mask.shape))
+            small_lines, small_mask = _resize_figure(figure_lines, figure_mask, scale)
+            vectors = tile_vectors(
+                self._network, small_lines, small_mask, grids or TILE_GRIDS, progress
+            )
+        vectors = _extend_outside(_round_off(vectors, self.card.roundness), small_mask)
+        vectors = resize(vectors, figure_mask.shape)[inner]
         figure_mask = figure_mask[inner]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
         normals[box] = vectors * figure_mask[..., None]
+        progress(1.0)
         return normals
+
+    def _paper(self) -> NormalPredictor:
+        if self._tiles is None:
+            self._tiles = NormalPredictor(*load_network(shipped_weights("dilated-unet")))
+        return self._tiles
 
     def _scale(self, long_side: int) -> float:
         smallest, largest = self.card.figure_px
         return min(max(long_side, smallest), largest) / long_side
 
-    def _average_grids(
-        self,
-        lines: NDArray[np.float32],
-        mask: NDArray[np.bool_],
-        grids: int,
-        progress: Callable[[float], None],
-    ) -> NDArray[np.float32]:
-        height, width = mask.shape
-        source = TileSource(lines, mask)
-        corners = [
-            (row, column)
-            for grid in diagonal_grids(height, width, grids)
-            for row, column in grid
-            if mask[max(row, 0) : row + TILE, max(column, 0) : column + TILE].any()
-        ]
-        # Tiles know their middle best: each counts less towards its border.
-        ramp = np.minimum(np.arange(TILE) + 0.5, TILE - np.arange(TILE) - 0.5) / (TILE / 2)
-        window = (np.outer(ramp, ramp) + 1e-3).astype(np.float32)[..., None]
-        summed = np.zeros((height + 2 * TILE, width + 2 * TILE, 3), np.float32)
-        weights = np.zeros((*summed.shape[:2], 1), np.float32)
-        for start in range(0, len(corners), _BATCH):
-            batch = corners[start : start + _BATCH]
-            tiles = torch.from_numpy(np.stack([source.cut(*corner) for corner in batch]))
-            tiles = tiles.contiguous(memory_format=torch.channels_last)
-            with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
-                predicted = self._network(tiles).float().permute(0, 2, 3, 1).numpy()
-            for (row, column), vectors in zip(batch, predicted, strict=True):
-                area = np.s_[row + TILE : row + 2 * TILE, column + TILE : column + 2 * TILE]
-                summed[area] += vectors * window
-                weights[area] += window
-            progress((start + len(batch)) / len(corners))
-        inner = np.s_[TILE : TILE + height, TILE : TILE + width]
-        result: NDArray[np.float32] = summed[inner] / np.maximum(weights[inner], 1e-6)
-        return result
 
-
-def _round_off(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
+def _round_off(vectors: NDArray[np.float32], roundness: float) -> NDArray[np.float32]:
     """Unit normals from the network's means, (H, W, 3), without their flatness.
 
     A mean of the normals that a pixel might have leans to the viewer: what points sideways
     cancels out, what points forwards does not. Steepening every slope by one factor undoes
     the lean on the whole, and makes no crease where there was none.
     """
-    steeper = np.maximum(vectors, [-1, -1, 1e-3]) / [1, 1, ROUNDNESS]
+    steeper = np.maximum(vectors, [-1, -1, 1e-3]) / [1, 1, roundness]
     rounded = steeper / np.linalg.norm(steeper, axis=2, keepdims=True)
     result: NDArray[np.float32] = rounded.astype(np.float32)
     return result
@@ -179,23 +174,12 @@ def _resize_figure(
     if scale == 1:
         return lines, mask
     size = tuple(max(1, round(side * scale)) for side in mask.shape)
-    inside = _resize(mask.astype(np.float32)[..., None], size)[..., 0]
-    ink = _resize((lines * mask)[..., None], size)[..., 0] / np.maximum(inside, 0.25)
+    inside = resize(mask.astype(np.float32)[..., None], size)[..., 0]
+    ink = resize((lines * mask)[..., None], size)[..., 0] / np.maximum(inside, 0.25)
     small_mask = inside > 0.5
     if not small_mask.any():
         small_mask = inside >= inside.max()
     return np.clip(ink, 0, 1).astype(np.float32), small_mask
-
-
-def _resize(image: NDArray[np.float32], size: tuple[int, ...]) -> NDArray[np.float32]:
-    """Area-averaging when smaller, bilinear when larger; pixel borders stay aligned."""
-    if image.shape[:2] == tuple(size):
-        return image.copy()
-    planes = torch.from_numpy(np.ascontiguousarray(image)).permute(2, 0, 1)[None]
-    resized = nn.functional.interpolate(
-        planes, size=tuple(size), mode="bilinear", antialias=True, align_corners=False
-    )
-    return resized[0].permute(1, 2, 0).contiguous().numpy()
 
 
 def _extend_outside(vectors: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:

@@ -26,15 +26,35 @@ def lumo_normals(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
         (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
     """
     small = _shrink(mask)
-    soft = ndimage.gaussian_filter(small.astype(np.float32), 1.5)
+    return _complete(_from_outline(small.astype(np.float32), small), small, mask)
+
+
+def interpolated_outline(
+    share: NDArray[np.float32], small: NDArray[np.bool_]
+) -> NDArray[np.float32]:
+    """Lumo's normals on a coarse grid: (h, w, 3) float32, 0 outside.
+
+    Args:
+        share: (h, w) of each cell that is figure. small: (h, w) bool, cells counted as figure.
+    """
+    plane = _from_outline(np.pad(share, 1), np.pad(small, 1))[1:-1, 1:-1]
+    plane /= np.maximum(np.linalg.norm(plane, axis=2, keepdims=True), 1.0)
+    z = np.sqrt(np.maximum(1 - np.square(plane).sum(axis=2, keepdims=True), 0))
+    normals: NDArray[np.float32] = np.concatenate([plane, z], axis=2).astype(np.float32)
+    return normals * small[..., None]
+
+
+def _from_outline(share: NDArray[np.float32], small: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """(h, w, 2) x and y of the outline's normals, harmonic inside."""
+    soft = ndimage.gaussian_filter(share, 1.5)
     down, right = np.gradient(-soft)
     outward = np.stack([right, -down], axis=2)
     outward /= np.maximum(np.linalg.norm(outward, axis=2, keepdims=True), 1e-9)
     rim = small & ~ndimage.binary_erosion(small)
     inner = small & ~rim
-    plane = np.where(rim[..., None], outward, 0.0)
+    plane: NDArray[np.float64] = np.where(rim[..., None], outward, 0.0).astype(np.float64)
     plane[inner] = _solve_poisson(inner, np.zeros(inner.sum()), plane)
-    return _complete(plane, small, mask)
+    return plane
 
 
 def inflated_normals(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
@@ -71,6 +91,8 @@ def _solve_poisson(
     inside: NDArray[np.bool_], source: NDArray[np.float64], boundary: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Solve ``-laplace(u) = source`` at the (n,) inside pixels; elsewhere ``u = boundary``."""
+    if not len(source):
+        return np.zeros((0, boundary.shape[2]))
     index = np.full(inside.shape, -1)
     index[inside] = np.arange(inside.sum())
     right_side = np.repeat(source[:, None], boundary.shape[2], axis=1).astype(float)

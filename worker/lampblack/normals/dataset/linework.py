@@ -28,6 +28,8 @@ class Hand:
         gaps: share of the line left open, 0 to 1.
         darkness: of the ink, 0 to 1.
         black_fills: share of closed regions filled with ink.
+        taper: share of the line that thins out towards its ends, 0 to 1.
+        markings: share of the figure under spots or stripes, whose lines carry no shape.
     """
 
     width: float = 2.5
@@ -38,20 +40,25 @@ class Hand:
     gaps: float = 0.0
     darkness: float = 1.0
     black_fills: float = 0.0
+    taper: float = 0.0
+    markings: float = 0.0
 
     @staticmethod
     def random(rng: np.random.Generator, figure_px: int) -> Hand:
         """One hand of many, for a figure of this size."""
-        widest = max(0.022 * figure_px, 2.5)
+        widest = 0.05 * figure_px if rng.random() < 0.15 else 0.018 * figure_px
         return Hand(
-            width=float(np.exp(rng.uniform(np.log(0.9), np.log(widest)))),
+            width=float(np.exp(rng.uniform(np.log(0.9), np.log(max(widest, 2.5))))),
             swell=float(rng.uniform(0, 0.6)),
-            crease=float(rng.uniform(25, 60)),
-            step=figure_px * float(rng.uniform(0.008, 0.03)),
-            wobble=float(rng.choice([0.0, rng.uniform(0.3, 1.5)])),
-            gaps=float(rng.choice([0.0, rng.uniform(0, 0.2)])),
-            darkness=float(rng.uniform(0.6, 1.0)),
-            black_fills=float(rng.choice([0.0, 0.0, rng.uniform(0, 0.15)])),
+            # Two hands in five draw occlusions alone, as Freestyle's contours do.
+            crease=180.0 if rng.random() < 0.4 else float(rng.uniform(25, 70)),
+            step=figure_px * float(np.exp(rng.uniform(np.log(0.003), np.log(0.03)))),
+            wobble=float(rng.choice([0.0, 0.0, rng.uniform(0.3, 1.5)])),
+            gaps=float(rng.choice([0.0, 0.0, rng.uniform(0, 0.2)])),
+            darkness=float(rng.choice([1.0, rng.uniform(0.6, 1.0)])),
+            black_fills=float(rng.choice([0.0, 0.0, rng.uniform(0, 0.2)])),
+            taper=float(rng.choice([0.0, rng.uniform(0.1, 0.6)])),
+            markings=float(rng.choice([0.0] * 7 + [rng.uniform(0.03, 0.2)])),
         )
 
 
@@ -71,9 +78,15 @@ def draw_lines(view: GBuffer, hand: Hand, rng: np.random.Generator) -> NDArray[n
             distance, [rows + offsets[0], columns + offsets[1]], order=1, mode="nearest"
         )
     width = hand.width * (1 + hand.swell * _noise(mask.shape, 40, rng))
+    if hand.taper > 0:
+        thinning = _noise(mask.shape, 32, rng)
+        width = width * np.clip((thinning - np.quantile(thinning, hand.taper / 2)) * 4, 0.15, 1)
     ink = np.clip(width / 2 - distance + 0.5, 0, 1) * np.clip(width, 0, 1)
     if hand.gaps > 0:
-        ink *= _noise(mask.shape, 20, rng) > np.quantile(_noise(mask.shape, 20, rng), hand.gaps)
+        drawn = _noise(mask.shape, 20, rng)
+        ink *= drawn > np.quantile(drawn, hand.gaps)
+    if hand.markings > 0:
+        ink = np.maximum(ink, _markings(mask, hand, rng))
     ink *= hand.darkness
     if hand.black_fills > 0:
         regions, count = ndimage.label(mask & (distance > width / 2))
@@ -86,6 +99,21 @@ def draw_lines(view: GBuffer, hand: Hand, rng: np.random.Generator) -> NDArray[n
         ink = np.where(solid, np.clip(1.5 - distance, 0, 1) * hand.darkness, ink)
     result: NDArray[np.float32] = (ink * mask).astype(np.float32)
     return result
+
+
+def _markings(mask: NDArray[np.bool_], hand: Hand, rng: np.random.Generator) -> NDArray[np.float32]:
+    """Outlines of spots, or of stripes when stretched, in ink."""
+    rows, columns = np.indices(mask.shape, dtype=np.float32) / max(mask.shape)
+    angle, pace = rng.uniform(0, np.pi), rng.choice([0.0, rng.uniform(8, 30)])
+    field = _noise(mask.shape, max(6, max(mask.shape) // 14), rng)
+    field = field + 1.5 * np.sin(
+        2 * np.pi * pace * (rows * np.sin(angle) + columns * np.cos(angle))
+    )
+    field *= _noise(mask.shape, max(8, max(mask.shape) // 5), rng) > 0.2
+    spots = (field > np.quantile(field[mask], 1 - hand.markings)) & mask
+    distance = ndimage.distance_transform_edt(spots ^ ndimage.binary_erosion(spots) ^ True)
+    inked: NDArray[np.float32] = np.clip(min(hand.width, 4) / 2 - distance + 0.5, 0, 1)
+    return inked.astype(np.float32)
 
 
 def _occlusions(view: GBuffer, step: float) -> NDArray[np.bool_]:

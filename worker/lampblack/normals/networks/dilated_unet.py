@@ -7,12 +7,8 @@ kept, and the widths are chosen for a processor without a GPU.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import torch
 from torch import Tensor, nn
-
-from .card import NetworkCard
 
 DILATIONS = (2, 4, 8, 4, 2)
 
@@ -57,22 +53,3 @@ class DilatedUNet(nn.Module):
         fine = nn.functional.pixel_shuffle(self.leaky(self.unshuffle(wide)), 2)
         normals = torch.tanh(self.out(torch.cat([fine, tiles], dim=1)))
         return normals * tiles[:, 3:4]
-
-
-ARCHITECTURES: dict[str, Callable[[], nn.Module]] = {"dilated-unet": DilatedUNet}
-
-
-def build_network(card: NetworkCard) -> nn.Module:
-    """The untrained network that ``card`` names."""
-    network = ARCHITECTURES[card.architecture]()
-    return network.to(memory_format=torch.channels_last)  # type: ignore[call-overload,no-any-return]
-
-
-def normal_loss(predicted: Tensor, truth: Tensor, mask: Tensor) -> Tensor:
-    """Equation 2: half the squared difference, averaged over the foreground.
-
-    Args:
-        predicted, truth: (B, 3, H, W); ``truth`` is unit in the mask. mask: (B, 1, H, W).
-    """
-    error = 0.5 * (predicted.float() - truth).square().sum(dim=1, keepdim=True)
-    return (error * mask).sum() / mask.sum().clamp(min=1)

@@ -41,8 +41,25 @@ def view_rotation(azimuth: float, elevation: float, roll: float = 0.0) -> NDArra
     return rotation
 
 
-def trace(model: Model, rotation: NDArray[np.float32], figure_px: int) -> GBuffer:
-    """See ``model`` through ``rotation``, its long side ``figure_px`` pixels, with a margin."""
+@dataclass(frozen=True)
+class Placed:
+    """A model in the pixels of its picture: ``vertices`` (V, 3) float32, x right, y up from the
+    lower left corner, z to the viewer; ``size`` of the picture, (rows, columns)."""
+
+    vertices: NDArray[np.float32]
+    faces: NDArray[np.int32]
+    corner_normals: NDArray[np.float32]
+    size: tuple[int, int]
+
+
+def place(
+    model: Model, rotation: NDArray[np.float32], figure_px: int, *, equal_area: bool = False
+) -> Placed:
+    """Turn ``model`` by ``rotation``, its long side ``figure_px`` pixels, with a margin.
+
+    With ``equal_area`` the box of a long figure grows to the area of a square of ``figure_px``
+    (at most to half as long again), so that a standing figure is seen as large as a round one.
+    """
     vertices = model.vertices @ rotation.T
     faces, corner_normals = model.faces, model.corner_normals
     if model.double_sided:
@@ -52,15 +69,29 @@ def trace(model: Model, rotation: NDArray[np.float32], figure_px: int) -> GBuffe
         faces, corner_normals = faces[facing], corner_normals[facing]
     used = vertices[faces.reshape(-1)]
     low, high = used.min(axis=0), used.max(axis=0)
-    scale = figure_px / max(float((high - low)[:2].max()), 1e-6)
-    vertices = (vertices - low) * scale
-    width, height = (int(n) + 2 * MARGIN for n in np.ceil((high - low)[:2] * scale))
-    top = float((high - low)[2] * scale) + 1
+    sides = np.maximum((high - low)[:2], 1e-6)
+    scale = figure_px / float(sides.max())
+    if equal_area:
+        scale *= min(1.5, float(np.sqrt(sides.max() / sides.min())))
+    width, height = (int(n) + 2 * MARGIN for n in np.ceil(sides * scale))
+    vertices = (vertices - low) * scale + np.array([MARGIN, MARGIN, 0], np.float32)
+    return Placed(vertices.astype(np.float32), faces, corner_normals @ rotation.T, (height, width))
 
+
+def trace(
+    model: Model, rotation: NDArray[np.float32], figure_px: int, *, equal_area: bool = False
+) -> GBuffer:
+    """See ``model`` placed as ``place`` does."""
+    return trace_placed(place(model, rotation, figure_px, equal_area=equal_area))
+
+
+def trace_placed(placed: Placed) -> GBuffer:
+    """One ray through the middle of every pixel."""
+    vertices, faces, (height, width) = placed.vertices, placed.faces, placed.size
+    top = float(vertices[:, 2].max()) + 1
     rows, columns = np.mgrid[0:height, 0:width]
     origins = np.stack(
-        [columns + 0.5 - MARGIN, (height - MARGIN) - (rows + 0.5), np.full(rows.shape, top)],
-        axis=-1,
+        [columns + 0.5, height - (rows + 0.5), np.full(rows.shape, top)], axis=-1
     ).reshape(-1, 3)
     directions = np.tile(np.array([[0, 0, -1]], np.float32), (len(origins), 1))
     scene = EmbreeScene()
@@ -70,8 +101,8 @@ def trace(model: Model, rotation: NDArray[np.float32], figure_px: int) -> GBuffe
     face = hit["primID"]
     inside = face >= 0
     face, u, v = face[inside], hit["u"][inside, None], hit["v"][inside, None]
-    shading = corner_normals[face]
-    smooth = ((1 - u - v) * shading[:, 0] + u * shading[:, 1] + v * shading[:, 2]) @ rotation.T
+    shading = placed.corner_normals[face]
+    smooth = (1 - u - v) * shading[:, 0] + u * shading[:, 1] + v * shading[:, 2]
     corners = vertices[faces[face]]
     flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat /= np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-12)

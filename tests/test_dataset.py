@@ -1,0 +1,124 @@
+"""The data set: the same every time, exact, and told apart from what is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from lampblack.errors import LampblackError
+from lampblack.normals.dataset.build import DatasetOptions, build_dataset, entries
+from lampblack.normals.dataset.deform import deformed
+from lampblack.normals.dataset.gbuffer import place, trace, trace_placed, view_rotation
+from lampblack.normals.dataset.models import Model
+from lampblack.normals.dataset.smooth import smoothed
+from lampblack.normals.dataset.triple import BEHIND, IN_FRONT, Triple, occlusion_edges
+from lampblack.normals.dataset.viewpoints import viewpoint
+
+OPTIONS = DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
+
+
+def sphere_model(subdivisions: int = 3) -> Model:
+    mesh = trimesh.creation.icosphere(subdivisions=subdivisions)
+    vertices = mesh.vertices.astype(np.float32)
+    return Model("a/ball", vertices, mesh.faces.astype(np.int32), vertices[mesh.faces], False)
+
+
+@pytest.fixture
+def models(tmp_path: Path) -> Path:
+    folder = tmp_path / "models"
+    folder.mkdir()
+    trimesh.creation.icosphere(subdivisions=2).export(folder / "ball.ply")
+    trimesh.creation.capsule(radius=0.4).export(folder / "pill.obj")
+    (folder / "broken.obj").write_text("junk")
+    return folder
+
+
+def test_a_data_set_is_the_same_however_often_it_is_interrupted(
+    models: Path, tmp_path: Path
+) -> None:
+    once, twice = tmp_path / "once", tmp_path / "twice"
+    assert build_dataset(models, once, None, OPTIONS) == 4
+    build_dataset(models, twice, None, OPTIONS)
+    removed = sorted(twice.rglob("*.npz"))[1]
+    removed.unlink()
+    assert build_dataset(models, twice, None, OPTIONS) == 4
+    for a, b in zip(sorted(once.rglob("*.npz")), sorted(twice.rglob("*.npz")), strict=True):
+        first, second = Triple.load(a), Triple.load(b)
+        assert np.array_equal(first.drawings, second.drawings)
+        assert np.array_equal(first.normals, second.normals)
+
+
+def test_models_of_a_large_source_give_fewer_views() -> None:
+    paths = [Path("many") / f"{n}.npz" for n in range(240)] + [Path("few/a.npz")]
+    built = list(entries(paths, 8))
+    assert sum(path.parent.name == "few" for path, _ in built) == 8
+    assert len(built) == 8 + 2 * 240
+    assert {index for _, index in built[: len(paths)]} == {0}
+
+
+def test_triples_keep_their_truth(tmp_path: Path) -> None:
+    view = trace(sphere_model(4), view_rotation(0, 0), 120)
+    lines = np.random.default_rng(0).random(view.mask.shape).astype(np.float32)
+    Triple.of(view, [lines], 4.0).save(tmp_path / "a.npz")
+    kept = Triple.load(tmp_path / "a.npz")
+    assert np.abs(kept.normals / 127 - view.normals).max() < 0.005
+    assert np.abs(kept.depth / 16 - view.depth).max() <= 1 / 32
+    assert np.array_equal(kept.mask, view.mask)
+    assert np.abs(kept.drawings[0] / 255 - lines).max() < 0.003
+    for content in (b"", b"PK\x03\x04"):
+        (tmp_path / "a.npz").write_bytes(content)
+        with pytest.raises(LampblackError):
+            Triple.load(tmp_path / "a.npz")
+
+
+def test_the_nearer_side_of_an_occlusion_is_in_front() -> None:
+    """A small plate before a large one."""
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32)
+    vertices = np.concatenate(
+        [np.column_stack([s * corners, np.full(4, z)]) for s, z in ((1, 0), (0.5, 0.5))]
+    ).astype(np.float32)
+    faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], np.int32)
+    normals = np.tile(np.array([0, 0, 1], np.float32), (4, 3, 1))
+    view = trace(Model("plates", vertices, faces, normals, False), view_rotation(0, 0), 100)
+    edges = occlusion_edges(view, 10.0)
+    near = view.depth > view.depth.max() - 1
+    assert (edges[near] == IN_FRONT).sum() > 4 * 45
+    assert not (edges[near] == BEHIND).any()
+    assert (edges == BEHIND).sum() > 4 * 45
+    assert edges[58, 58] == 0
+
+
+def test_smoothing_rounds_a_coarse_ball() -> None:
+    coarse = sphere_model(1)
+    rounds = [
+        np.linalg.norm(m.vertices[m.faces].mean(axis=1), axis=1) for m in (coarse, smoothed(coarse))
+    ]
+    assert rounds[1].min() > 0.97 > rounds[0].min()
+
+
+def test_a_deformed_model_has_the_normals_of_its_surface() -> None:
+    model = deformed(sphere_model(5), np.random.default_rng(3))
+    corners = model.vertices[model.faces]
+    flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+    alike = np.einsum("fc,fkc->fk", flat, model.corner_normals)
+    assert np.degrees(np.arccos(alike.min())) < 8
+    assert np.abs(np.linalg.norm(model.vertices, axis=1) - 1).max() > 0.05
+
+
+def test_viewpoints_are_those_an_artist_draws() -> None:
+    looks = np.stack([viewpoint(i, np.random.default_rng(i))[2] for i in range(42)])
+    assert (looks[:, 2] > 0).sum() > 21  # mostly the front
+    assert (looks[:, 1] < -0.3).sum() <= 4  # few from below
+    assert np.ptp(np.arctan2(looks[:, 0], looks[:, 2])) > 4
+
+
+def test_a_long_figure_grows_to_the_area_of_a_square() -> None:
+    pole = sphere_model()
+    pole = Model("a/pole", pole.vertices * [0.5, 1, 0.5], pole.faces, pole.corner_normals, False)
+    rows, columns = place(pole, view_rotation(0, 0), 100, equal_area=True).size
+    assert (rows - 16) * (columns - 16) == pytest.approx(100 * 100, rel=0.05)
+    assert trace_placed(place(pole, view_rotation(0, 0), 100)).mask.shape == (116, 66)

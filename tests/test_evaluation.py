@@ -1,0 +1,82 @@
+"""Measures and peers, against closed forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.typing import NDArray
+
+from lampblack.normals.evaluation.evaluate import PEERS, evaluate
+from lampblack.normals.evaluation.laigter import laigter_normals
+from lampblack.normals.evaluation.lumo_mixed import lumo_mixed_normals
+from lampblack.normals.evaluation.metrics import bootstrap, measure
+from lampblack.normals.silhouette import flat_normals, lumo_normals
+
+Image = NDArray[np.float32]
+
+
+def ball(size: int, radius: float) -> tuple[NDArray[np.bool_], Image]:
+    """Mask and exact normals of a sphere in the middle of the picture."""
+    rows, columns = np.mgrid[0:size, 0:size] + 0.5 - size / 2
+    x, y = columns / radius, -rows / radius
+    mask = np.hypot(x, y) < 1
+    z = np.sqrt(np.maximum(1 - x * x - y * y, 0))
+    return mask, (np.stack([x, y, z], axis=2) * mask[..., None]).astype(np.float32)
+
+
+def angles(a: Image, b: Image) -> Image:
+    return np.degrees(np.arccos(np.clip(np.einsum("...c,...c->...", a, b), -1, 1)))
+
+
+def test_the_truth_has_no_error_and_flat_has_its_own() -> None:
+    mask, truth = ball(200, 80.0)
+    right = measure(truth, truth, mask)
+    assert right.mean < 0.1
+    assert right.l1 == right.l2 == 0
+    assert right.under_11 == right.curvature == 100
+    assert right.tilt == right.truth_tilt == pytest.approx(45, abs=0.5)
+    flat = measure(flat_normals(mask), truth, mask)
+    assert flat.mean == pytest.approx(right.truth_tilt, abs=0.1)
+    assert flat.tilt == pytest.approx(0, abs=0.1)
+    assert flat.rim == pytest.approx(90, abs=0.1)
+    assert right.rim < 20
+
+
+def test_a_dent_has_the_wrong_curvature() -> None:
+    mask, truth = ball(200, 80.0)
+    assert measure((truth * [-1, -1, 1]).astype(np.float32), truth, mask).curvature < 5
+
+
+def test_tuned_bevel_makes_a_disk_round_and_regions_puff_up() -> None:
+    mask, truth = ball(300, 120.0)
+    tuned = angles(laigter_normals(mask, None), truth)[mask].mean()
+    assert tuned < 12 < angles(laigter_normals(mask), truth)[mask].mean()
+    lines = np.zeros(mask.shape, np.float32)
+    lines[:, 149:151] = 1
+    mixed = lumo_mixed_normals(lines * mask, mask, weight=1.0)
+    left, right = mixed[150, 140], mixed[150, 160]
+    assert left[0] > 0.7 and right[0] < -0.7  # noqa: PT018  # a seam between two halves
+    assert np.array_equal(lumo_mixed_normals(lines * 0, mask), lumo_normals(mask))
+
+
+def test_bootstrap_tells_a_sure_gain_from_a_chance() -> None:
+    models = [f"m{i // 4}" for i in range(40)]
+    rng = np.random.default_rng(0)
+    theirs = rng.uniform(20, 30, 40)
+    low, high = bootstrap(list(theirs * 0.8), list(theirs), models)
+    assert low == pytest.approx(0.2)
+    assert high == pytest.approx(0.2)
+    low, high = bootstrap(list(rng.permutation(theirs)), list(theirs), models)
+    assert low < 0 < high
+
+
+def test_every_peer_is_measured_on_the_same_drawings(tmp_path: Path) -> None:
+    trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
+    table = evaluate(tmp_path, None, dict(PEERS), views=2, figure_px=120)
+    assert set(table) == set(PEERS)
+    assert table["lumo"]["mean"] < 8 < table["flat"]["mean"]
+    assert len({row["truth_tilt"] for row in table.values()}) == 1
+    assert table["lumo"]["first_is_better_percent"] < 0

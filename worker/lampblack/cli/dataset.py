@@ -1,0 +1,72 @@
+"""``lampblack dataset build``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+import typer
+
+from ..atomic import atomic_file
+from ..normals.dataset.build import DatasetOptions, build_dataset
+from ..normals.dataset.card import dataset_card
+from ..normals.dataset.sheet import dataset_sheet
+from ..normals.dataset.viewpoints import PAPER_VIEWPOINTS
+from .console import console, progress_bar
+
+dataset = typer.Typer(no_args_is_help=True, help="Drawings of models, with exact truth.")
+
+
+@dataset.callback()
+def _group() -> None:
+    """Drawings of models, with exact truth."""
+
+
+@dataset.command()
+def build(
+    models: Annotated[Path, typer.Option("--models", metavar="DIR", help="Folder of meshes.")],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="The data set.")],
+    split: Annotated[str, typer.Option(help="Part of split.csv; 'all' for every mesh.")] = "all",
+    views: Annotated[
+        int, typer.Option(min=1, max=1000, help="Sides of each model.")
+    ] = PAPER_VIEWPOINTS,
+    resolution: Annotated[
+        int, typer.Option(min=64, max=2048, help="Side of the square a figure's box would fill.")
+    ] = 512,
+    hands: Annotated[int, typer.Option(min=1, max=10, help="Drawings of each view.")] = 3,
+    freestyle: Annotated[
+        float, typer.Option(min=0, max=1, help="Share of views with a Freestyle drawing.")
+    ] = 0.2,
+    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
+    seed: Annotated[int, typer.Option(min=0, help="Of viewpoints and hands.")] = 0,
+) -> None:
+    """Draw models from many sides, with exact normals, depth and occlusions.
+
+    Interrupt it at will; run again, it goes on.
+
+    Example: lampblack dataset build --models meshes/ -o dataset/ --split train
+    """
+    options = DatasetOptions(
+        views=views,
+        resolution=resolution,
+        hands=hands,
+        freestyle=freestyle,
+        workers=workers,
+        seed=seed,
+    )
+    with progress_bar() as bar:
+        task = bar.add_task("Building", total=None)
+        there = build_dataset(
+            models,
+            output,
+            None if split == "all" else split,
+            options,
+            lambda done, total: bar.update(task, completed=done, total=total),
+        )
+    with atomic_file(output / "card.json") as file:
+        card = dataset_card(output, options)
+        file.write(msgspec.json.format(msgspec.json.encode(card), indent=2) + b"\n")
+    with atomic_file(output / "sheet.png") as file:
+        dataset_sheet(output).save(file, "PNG")
+    console.print(f"{there} entries, card.json and sheet.png: {output}", markup=False)

@@ -1,0 +1,158 @@
+"""Build a data set: every model from many sides, drawn by several hands, with exact truth."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+from collections import Counter
+from collections.abc import Callable, Generator
+from contextlib import closing
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import LampblackError, OutputError
+from .deform import deformed
+from .freestyle import Stroke, draw_freestyle
+from .gbuffer import GBuffer, Placed, place, trace_placed
+from .linework import Hand, draw_lines
+from .models import find_models, load_model
+from .smooth import smoothed
+from .triple import Triple
+from .viewpoints import PAPER_VIEWPOINTS, viewpoint
+
+LARGE_SOURCE = 60
+"""A source of more models repeats itself: each of its models is seen from fewer sides."""
+
+OCCLUSION_STEP = 0.012
+"""Depth jump that occludes, as a share of the figure."""
+
+CHUNK = 16
+_LEAST_SHARE = 0.02
+
+
+@dataclass(frozen=True)
+class DatasetOptions:
+    """``views`` a model, figures of about ``resolution`` squared pixels, ``hands`` drawings a
+    view; half of the views show the model with other proportions if ``deform``; a share
+    ``freestyle`` of the views has one drawing by Blender's Freestyle."""
+
+    views: int = PAPER_VIEWPOINTS
+    resolution: int = 512
+    hands: int = 3
+    deform: bool = True
+    freestyle: float = 0.2
+    seed: int = 0
+    workers: int = field(default=1, compare=False)
+
+
+def entries(paths: list[Path], views: int) -> Generator[tuple[Path, int], None, None]:
+    """(model, view) in the order they are built: the first view of every model, then the
+    second, so that an unfinished data set is a balanced one."""
+    sizes = Counter(path.parent.name for path in paths)
+    for index in range(views):
+        for path in paths:
+            if index < views * min(1.0, LARGE_SOURCE / sizes[path.parent.name]):
+                yield path, index
+
+
+def entry_path(output: Path, model: Path, index: int) -> Path:
+    """Where the ``index``-th view of ``model`` is kept."""
+    return output / model.parent.name / f"{model.stem}.{index:02d}.npz"
+
+
+def build_dataset(
+    models: Path,
+    output: Path,
+    split: str | None,
+    options: DatasetOptions,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> int:
+    """Write the entries that are not there yet; returns how many there are.
+
+    The same models, options and seed give the same data set, whatever the number of workers
+    and however often the work is interrupted. A view that shows nothing is left out.
+
+    Raises:
+        LampblackError: no models. OutputError: ``output`` cannot be written.
+    """
+    paths = find_models(models, split)
+    wanted = list(entries(paths, options.views))
+    for folder in {entry_path(output, path, 0).parent for path in paths}:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise OutputError(f"{folder} cannot be made.", "Choose another.", str(error)) from error
+    missing = [task for task in wanted if not entry_path(output, *task).exists()]
+    there = done = len(wanted) - len(missing)
+    progress(done, len(wanted))
+    with closing(_built(missing, output, options)) as built:
+        for made in built:
+            done, there = min(done + CHUNK, len(wanted)), there + made
+            progress(done, len(wanted))
+    return there
+
+
+_Task = tuple[Path, int]
+
+
+def _built(tasks: list[_Task], output: Path, options: DatasetOptions) -> Generator[int, None, None]:
+    """Build by the chunk, for Blender is slow to start; yields how many entries each gave."""
+    chunks = [tasks[start : start + CHUNK] for start in range(0, len(tasks), CHUNK)]
+    build = partial(_build, output=output, options=options)
+    if options.workers == 1:
+        yield from map(build, chunks)
+        return
+    with multiprocessing.get_context("spawn").Pool(options.workers, _stand_back) as pool:
+        yield from pool.imap(build, chunks)
+
+
+def _stand_back() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(5)
+
+
+def _build(tasks: list[_Task], output: Path, options: DatasetOptions) -> int:
+    found = [(task, drawn) for task in tasks if (drawn := _draw(*task, options)) is not None]
+    jobs = [drawn.freestyle for _, drawn in found if drawn.freestyle is not None]
+    inked = iter(draw_freestyle(jobs) if jobs else [])
+    for (path, index), drawn in found:
+        if drawn.freestyle is not None and (ink := next(inked)) is not None:
+            drawn.lines[0] = ink * drawn.view.mask
+        triple = Triple.of(drawn.view, drawn.lines, OCCLUSION_STEP * options.resolution)
+        triple.save(entry_path(output, path, index))
+    return len(found)
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    view: GBuffer
+    lines: list[NDArray[np.float32]]
+    freestyle: tuple[Placed, Stroke] | None
+
+
+def _draw(path: Path, index: int, options: DatasetOptions) -> _Drawn | None:
+    """A view and its drawings but for Freestyle's; None if there is nothing to see."""
+    name = f"{path.parent.name}/{path.stem}"
+    rng = np.random.default_rng([options.seed, crc32(name.encode()), index])
+    try:
+        model = smoothed(load_model(path))
+    except LampblackError:
+        return None
+    if options.deform and rng.random() < 0.5:
+        model = deformed(model, rng)
+    placed = place(model, viewpoint(index, rng), options.resolution, equal_area=True)
+    view = trace_placed(placed)
+    if view.mask.sum() < _LEAST_SHARE * options.resolution**2:
+        return None
+    lines = [
+        draw_lines(view, Hand.random(rng, options.resolution), rng) for _ in range(options.hands)
+    ]
+    styled = rng.random() < options.freestyle
+    stroke = (placed, Stroke.random(rng, options.resolution)) if styled else None
+    return _Drawn(view, lines, stroke)

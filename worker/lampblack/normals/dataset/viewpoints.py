@@ -1,0 +1,23 @@
+"""The sides from which artists draw characters: all around, mostly the front, few from below."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .gbuffer import view_rotation
+
+PAPER_VIEWPOINTS = 42
+_GOLDEN = 0.6180339887498949
+
+
+def viewpoint(index: int, rng: np.random.Generator) -> NDArray[np.float32]:
+    """(3, 3) rotation of the ``index``-th viewpoint, shaken a little by ``rng``.
+
+    Any first few are spread evenly, so that an unfinished data set is a balanced one.
+    """
+    around = 2 * ((index * _GOLDEN) % 1) - 1
+    azimuth = 180 * np.sign(around) * abs(around) ** 1.3 + rng.normal(0, 5)
+    height = (index * _GOLDEN * _GOLDEN + 0.37) % 1
+    elevation = -14 + 54 * height**1.3 + rng.normal(0, 4)
+    return view_rotation(float(azimuth), float(elevation), float(rng.normal(0, 5)))

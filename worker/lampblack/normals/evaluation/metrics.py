@@ -1,0 +1,117 @@
+"""How far normals are from the truth, and how round they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+RIM_SHARE = 0.006
+"""Width of the rim in figure sizes: 3 pixels of 512."""
+
+_CURVED = 1.0
+"""Least divergence of the normals that counts as curved; of a ball as large as the figure it
+is 4."""
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Of one drawing, over the pixels of the figure.
+
+    Attributes:
+        mean, median: angle, degrees.
+        l1: mean over pixels of the mean absolute difference of the three components.
+        l2: mean over pixels of the length of the difference, over the root of 3.
+        under_11, under_22, under_30: percent of pixels under 11.25, 22.5 and 30 degrees.
+        tilt: mean angle between predicted normal and view, degrees; truth_tilt likewise.
+        rim: mean elevation above the picture plane along the silhouette; truth_rim likewise.
+        curvature: percent of curved pixels whose divergence has the sign of the truth's.
+    """
+
+    mean: float
+    median: float
+    l1: float
+    l2: float
+    under_11: float
+    under_22: float
+    under_30: float
+    tilt: float
+    truth_tilt: float
+    rim: float
+    truth_rim: float
+    curvature: float
+
+
+def measure(
+    found: NDArray[np.float32], truth: NDArray[np.float32], mask: NDArray[np.bool_]
+) -> Errors:
+    """Compare two (H, W, 3) maps of unit normals inside ``mask``."""
+    a, b = found[mask], truth[mask]
+    angle = np.degrees(np.arccos(np.clip(np.einsum("nc,nc->n", a, b), -1, 1)))
+    distance = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
+    rim = mask & (distance <= max(1.0, RIM_SHARE * max(mask.shape)))
+    return Errors(
+        mean=float(angle.mean()),
+        median=float(np.median(angle)),
+        l1=float(np.abs(a - b).mean()),
+        l2=float((np.linalg.norm(a - b, axis=1) / np.sqrt(3)).mean()),
+        under_11=100 * float((angle < 11.25).mean()),
+        under_22=100 * float((angle < 22.5).mean()),
+        under_30=100 * float((angle < 30).mean()),
+        tilt=_tilt(a),
+        truth_tilt=_tilt(b),
+        rim=90 - _tilt(found[rim]),
+        truth_rim=90 - _tilt(truth[rim]),
+        curvature=_same_curvature(found, truth, mask),
+    )
+
+
+def means(rows: list[Errors]) -> dict[str, float]:
+    """Mean over drawings of every figure."""
+    return {
+        field.name: round(float(np.mean([getattr(row, field.name) for row in rows])), 4)
+        for field in fields(Errors)
+    }
+
+
+def bootstrap(
+    ours: list[float], theirs: list[float], models: list[str], rounds: int = 2000
+) -> tuple[float, float]:
+    """95 % interval of the relative gain ``1 - ours / theirs`` of mean angles; whole models are
+    drawn anew, for drawings of one model are alike."""
+    rng = np.random.default_rng(0)
+    names = sorted(set(models))
+    by_model = np.array(
+        [
+            [np.mean([angle for angle, m in zip(angles, models, strict=True) if m == name])]
+            for angles in (ours, theirs)
+            for name in names
+        ]
+    ).reshape(2, len(names))
+    picks = rng.integers(len(names), size=(rounds, len(names)))
+    gains = 1 - by_model[0][picks].mean(axis=1) / by_model[1][picks].mean(axis=1)
+    low, high = np.quantile(gains, [0.025, 0.975])
+    return float(low), float(high)
+
+
+def _tilt(normals: NDArray[np.float32]) -> float:
+    return float(np.degrees(np.arccos(np.clip(normals[:, 2], -1, 1))).mean())
+
+
+def _same_curvature(
+    found: NDArray[np.float32], truth: NDArray[np.float32], mask: NDArray[np.bool_]
+) -> float:
+    size = max(mask.shape)
+    inner = ndimage.binary_erosion(mask, iterations=max(2, size // 100))
+    bends = []
+    for normals in (found, truth):
+        smooth = ndimage.gaussian_filter(normals, (size / 128, size / 128, 0))
+        bends.append(
+            size * (np.gradient(smooth[..., 0], axis=1) - np.gradient(smooth[..., 1], axis=0))
+        )
+    curved = inner & (np.abs(bends[1]) > _CURVED)
+    if not curved.any():
+        return 100.0
+    return 100 * float((np.sign(bends[0]) == np.sign(bends[1]))[curved].mean())

@@ -1,0 +1,116 @@
+"""A whole figure laid on a canvas of fixed area, as the figure network sees it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from scipy import ndimage
+from torch import nn
+
+from .silhouette import interpolated_outline
+
+COARSE = 4
+"""Canvas pixels per cell of the coarse maps."""
+
+FINE_CHANNELS = 2
+COARSE_CHANNELS = 10
+LUMO = slice(0, 3)
+SIDEWAYS = (0, 4, 8)
+"""Coarse channels that change sign when the figure is mirrored."""
+
+MARGIN = 8
+_STEP = 32
+
+Plane = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Canvas:
+    """Where a figure's box lies: ``shape`` of the canvas and ``size`` of the box in its middle,
+    pixels (rows, columns); both even, so that a mirrored figure is the mirror image."""
+
+    shape: tuple[int, int]
+    size: tuple[int, int]
+
+    @property
+    def inner(self) -> tuple[slice, slice]:
+        """The box's place on the canvas."""
+        rows, columns = ((n - m) // 2 for n, m in zip(self.shape, self.size, strict=True))
+        return slice(rows, rows + self.size[0]), slice(columns, columns + self.size[1])
+
+
+def canvases(side: int) -> list[tuple[int, int]]:
+    """Shapes of about ``side`` squared pixels: square, 3:2, 9:4, upright and lying."""
+    shapes = []
+    for aspect in (1.0, 1.54, 2.3):
+        long = round(side * aspect**0.5 / _STEP) * _STEP
+        short = round(side / aspect**0.5 / _STEP) * _STEP
+        shapes += [(long, short), (short, long)] if long != short else [(long, short)]
+    return shapes
+
+
+def canvas_for(shape: tuple[int, ...], side: int, zoom: float = 1.0) -> Canvas:
+    """The canvas on which a box of ``shape`` is largest; ``zoom`` below 1 leaves it smaller."""
+
+    def scale(canvas: tuple[int, int]) -> float:
+        return min((n - 2 * MARGIN) / m for n, m in zip(canvas, shape, strict=True))
+
+    best = max(canvases(side), key=lambda canvas: scale(canvas) ** 2 / (canvas[0] * canvas[1]))
+    factor = scale(best) * zoom
+    rows, columns = (max(2, 2 * round(m * factor / 2)) for m in shape)
+    return Canvas(best, (rows, columns))
+
+
+def lay(image: Plane, canvas: Canvas) -> Plane:
+    """(H, W, C) box -> (canvas rows, canvas columns, C), zero around it. Averages when smaller,
+    bilinear when larger."""
+    laid = np.zeros((*canvas.shape, image.shape[2]), np.float32)
+    laid[canvas.inner] = resize(image, canvas.size)
+    return laid
+
+
+def resize(image: Plane, size: tuple[int, ...]) -> Plane:
+    """(H, W, C) -> (*size, C); pixel borders stay aligned."""
+    if image.shape[:2] == size:
+        return image.copy()
+    planes = torch.from_numpy(np.ascontiguousarray(image)).permute(2, 0, 1)[None]
+    resized = nn.functional.interpolate(
+        planes, size=size, mode="bilinear", antialias=True, align_corners=False
+    )
+    return resized[0].permute(1, 2, 0).contiguous().numpy()
+
+
+def shape_maps(mask: NDArray[np.bool_]) -> Plane:
+    """(8, h, w) float32 coarse maps that follow from the (H, W) canvas mask alone: Lumo's normal,
+    the root of the distance to the silhouette, its gradient, and the place in the figure."""
+    rows, columns = (n // COARSE for n in mask.shape)
+    share = mask.reshape(rows, COARSE, columns, COARSE).mean(axis=(1, 3), dtype=np.float32)
+    small = share > 0.5
+    lumo = interpolated_outline(share, small)
+    distance = ndimage.distance_transform_edt(np.pad(small, 1))[1:-1, 1:-1].astype(np.float32)
+    down, right = np.gradient(ndimage.gaussian_filter(distance, 1.0))
+    where = np.indices(small.shape, np.float32) + 0.5
+    y, x = (2 * where[i] / n - 1 for i, n in enumerate(small.shape))
+    longest = max(small.shape)
+    maps = [*lumo.transpose(2, 0, 1), np.sqrt(distance) / 4, right, -down]
+    maps += [x * columns / longest, -y * rows / longest]
+    result: Plane = (np.stack(maps) * small).astype(np.float32)
+    return result
+
+
+def ink_maps(ink: Plane) -> Plane:
+    """(2, h, w) float32: nearness to the ink of the (H, W) canvas, sharp and wide."""
+    rows, columns = (n // COARSE for n in ink.shape)
+    most = ink.reshape(rows, COARSE, columns, COARSE).max(axis=(1, 3))
+    drawn = most > 0.25
+    distance = ndimage.distance_transform_edt(~drawn) if drawn.any() else np.full(drawn.shape, 99.0)
+    result: Plane = np.stack([np.exp(-distance / 2), np.sqrt(distance) / 4]).astype(np.float32)
+    return result
+
+
+def coarse_maps(shape: Plane, ink: Plane) -> Plane:
+    """(10, h, w): ``shape_maps`` with ``ink_maps`` between the gradient and the place."""
+    return np.concatenate([shape[:6], ink_maps(ink), shape[6:]])

@@ -1,0 +1,134 @@
+"""Our network: the whole figure at once, a correction to the normals of its silhouette.
+
+A residual U-Net whose first level is a quarter of the canvas (pixels are folded into channels)
+and whose deepest is a thirty-second, where attention lets every part see every other. It adds
+to Lumo's normals, so that it begins where the best peer ends. Beside the normals it learns how
+sure it is of them (angular von Mises-Fisher, Bae 2021), depth, and occlusion edges with their
+side in front.
+"""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from ..figure import COARSE, COARSE_CHANNELS, FINE_CHANNELS, LUMO
+
+WIDTHS = (64, 128, 224, 256)
+ATTENTION_LAYERS = 4
+HEADS = 4
+
+
+class Residual(nn.Module):
+    """Two convolutions beside a shortcut."""
+
+    def __init__(self, width: int, dilation: int = 1) -> None:
+        super().__init__()
+        self.body = nn.Sequential(
+            nn.Conv2d(width, width, 3, padding=dilation, dilation=dilation, bias=False),
+            nn.BatchNorm2d(width),
+            nn.ReLU(inplace=True),
+            nn.Conv2d(width, width, 3, padding=1, bias=False),
+            nn.BatchNorm2d(width),
+        )
+        nn.init.zeros_(self.body[4].weight)  # type: ignore[arg-type]
+
+    def forward(self, x: Tensor) -> Tensor:
+        joined: Tensor = nn.functional.relu(x + self.body(x))
+        return joined
+
+
+class Attention(nn.Module):
+    """A transformer layer over the cells of the deepest level."""
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.before = nn.LayerNorm(width)
+        self.query_key_value = nn.Linear(width, 3 * width)
+        self.joined = nn.Linear(width, width)
+        self.between = nn.LayerNorm(width)
+        self.wide = nn.Linear(width, 3 * width)
+        self.narrow = nn.Linear(3 * width, width)
+        for layer in (self.joined, self.narrow):
+            nn.init.zeros_(layer.weight)
+            nn.init.zeros_(layer.bias)
+
+    def forward(self, cells: Tensor) -> Tensor:
+        batch, count, width = cells.shape
+        parts = self.query_key_value(self.before(cells))
+        q, k, v = parts.view(batch, count, 3, HEADS, width // HEADS).permute(2, 0, 3, 1, 4)
+        seen = nn.functional.scaled_dot_product_attention(q, k, v)
+        cells = cells + self.joined(seen.transpose(1, 2).reshape(batch, count, width))
+        hidden = nn.functional.gelu(self.wide(self.between(cells)))
+        after: Tensor = cells + self.narrow(hidden)
+        return after
+
+
+def _convolution(before: int, after: int, kernel: int = 3, stride: int = 1) -> nn.Sequential:
+    return nn.Sequential(
+        nn.Conv2d(before, after, kernel, stride, (kernel - 1) // 2, bias=False),
+        nn.BatchNorm2d(after),
+        nn.ReLU(inplace=True),
+    )
+
+
+class FigureNet(nn.Module):
+    """See the module; ``forward`` maps ``figure.FigureInput`` tensors to ``Prediction``s."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        first, second, third, deep = WIDTHS
+        folded = FINE_CHANNELS * COARSE * COARSE + COARSE_CHANNELS
+        self.stem = nn.Sequential(_convolution(folded, first), _convolution(first, first))
+        self.down2 = nn.Sequential(_convolution(first, second, 4, 2), Residual(second))
+        self.down3 = nn.Sequential(
+            _convolution(second, third, 4, 2),
+            Residual(third),
+            Residual(third, 2),
+            Residual(third, 4),
+        )
+        self.down4 = _convolution(third, deep, 2, 2)
+        self.attention = nn.Sequential(*(Attention(deep) for _ in range(ATTENTION_LAYERS)))
+        self.up3, self.joined3 = nn.Conv2d(deep, third, 1), Residual(third)
+        self.up2, self.joined2 = nn.Conv2d(third, second, 1), Residual(second)
+        self.up1, self.joined1 = nn.Conv2d(second, first, 1), _convolution(first, first)
+        self.normals = nn.Conv2d(first, 4 * COARSE * COARSE, 3, padding=1)
+        self.auxiliary = nn.Conv2d(first, 3, 1)
+        for module in self.modules():
+            if isinstance(module, nn.Conv2d):
+                nn.init.kaiming_normal_(module.weight, nonlinearity="relu")
+        nn.init.zeros_(self.normals.weight)
+        nn.init.zeros_(self.normals.bias)  # type: ignore[arg-type]
+
+    def forward(self, fine: Tensor, coarse: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Args:
+            fine: (B, 2, H, W), coarse: (B, 10, H/4, W/4); see ``figure.py``.
+
+        Returns:
+            (B, 3, H, W) normals, not yet unit; (B, 1, H, W) concentration, its logarithm;
+            (B, 3, H/4, W/4) depth and the logits of the near and far side of an occlusion.
+        """
+        folded = nn.functional.pixel_unshuffle(fine, COARSE)
+        first = self.stem(torch.cat([folded, coarse], dim=1))
+        second = self.down2(first)
+        third = self.down3(second)
+        deep = self.down4(third)
+        cells = self.attention(deep.flatten(2).transpose(1, 2))
+        deep = cells.transpose(1, 2).reshape(deep.shape)
+        third = self.joined3(third + _wider(self.up3(deep)))
+        second = self.joined2(second + _wider(self.up2(third)))
+        first = self.joined1(first + _wider(self.up1(second)))
+        if self.training:
+            head = self.normals(first).float()
+        else:  # bf16 would show as bands in smooth light
+            with torch.autocast("cpu", enabled=False):
+                head = self.normals(first.float())
+        raw = nn.functional.pixel_shuffle(head, COARSE)
+        lumo = nn.functional.interpolate(
+            coarse[:, LUMO].float(), scale_factor=COARSE, mode="bilinear", align_corners=False
+        )
+        return lumo + raw[:, :3], raw[:, 3:], self.auxiliary(first).float()
+
+
+def _wider(features: Tensor) -> Tensor:
+    return nn.functional.interpolate(features, scale_factor=2.0, mode="nearest")

@@ -1,0 +1,65 @@
+"""Normals of a whole figure at once, by the figure network."""
+
+from __future__ import annotations
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import nn
+
+from .figure import SIDEWAYS, Canvas, canvas_for, coarse_maps, lay, shape_maps
+
+
+def figure_vectors(
+    network: nn.Module,
+    side: int,
+    lines: NDArray[np.float32],
+    mask: NDArray[np.bool_],
+    *,
+    mirrored: bool = True,
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """What the network says of a figure, at its canvas's resolution.
+
+    Args:
+        network: a ``FigureNet`` in evaluation mode.
+        side: of the square whose area the canvas has, pixels.
+        lines: (H, W) float32 ink in 0..1. mask: (H, W) bool. Both cropped to the figure.
+        mirrored: average with the mirror image, so that a mirrored figure is answered by
+            mirrored normals, exactly; at twice the price.
+
+    Returns:
+        (h, w, 3) float32, roughly unit, and the (h, w) bool mask at that size.
+    """
+    rows, columns = mask.shape
+    canvas = canvas_for((rows, columns), side)
+    fine, coarse, small = figure_input(lines, mask, canvas)
+    if mirrored:
+        flipped = coarse.flip(-1)
+        flipped[:, list(SIDEWAYS)] *= -1
+        fine, coarse = torch.cat([fine, fine.flip(-1)]), torch.cat([coarse, flipped])
+    last = torch.channels_last
+    with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+        vectors, _, _ = network(
+            fine.contiguous(memory_format=last), coarse.contiguous(memory_format=last)
+        )
+    vectors = nn.functional.normalize(vectors, dim=1)
+    if mirrored:
+        back = vectors[1].flip(-1)
+        back[0] *= -1
+        vectors = (vectors[:1] + back) / 2
+    found: NDArray[np.float32] = vectors[0].permute(1, 2, 0).contiguous().numpy()
+    return found[canvas.inner], small[canvas.inner]
+
+
+def figure_input(
+    lines: NDArray[np.float32], mask: NDArray[np.bool_], canvas: Canvas
+) -> tuple[torch.Tensor, torch.Tensor, NDArray[np.bool_]]:
+    """The (1, 2, h, w) and (1, 10, h/4, w/4) tensors of a figure, and its mask on the canvas."""
+    laid = lay(np.stack([lines * mask, mask], axis=2).astype(np.float32), canvas)
+    share = laid[..., 1]
+    small = share > 0.5
+    if not small.any():
+        small = share >= share.max()
+    ink = np.clip(laid[..., 0] / np.maximum(share, 0.25), 0, 1) * small
+    fine = torch.from_numpy(np.stack([ink, small.astype(np.float32)]))[None]
+    return fine, torch.from_numpy(coarse_maps(shape_maps(small), ink))[None], small

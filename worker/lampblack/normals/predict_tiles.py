@@ -1,0 +1,62 @@
+"""A normal map from overlapping tiles: multi-grid diagonal sampling (paper, 3.1.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import nn
+
+from .tiles import TILE, TileSource, diagonal_grids
+
+PAPER_GRIDS = 20
+TILE_GRIDS = 5
+MAX_GRIDS = 64
+_BATCH = 8
+
+
+def tile_vectors(
+    network: nn.Module,
+    lines: NDArray[np.float32],
+    mask: NDArray[np.bool_],
+    grids: int,
+    progress: Callable[[float], None] = lambda share: None,
+) -> NDArray[np.float32]:
+    """The mean over ``grids`` diagonally shifted grids of what a network says of each tile.
+
+    Args:
+        network: of tiles, in evaluation mode. lines: (H, W) float32 ink. mask: (H, W) bool.
+        grids: 1 to 64. progress: told the share done.
+
+    Returns:
+        (H, W, 3) float32, not yet unit.
+    """
+    height, width = mask.shape
+    source = TileSource(lines, mask)
+    corners = [
+        (row, column)
+        for grid in diagonal_grids(height, width, grids)
+        for row, column in grid
+        if mask[max(row, 0) : row + TILE, max(column, 0) : column + TILE].any()
+    ]
+    # Tiles know their middle best: each counts less towards its border.
+    ramp = np.minimum(np.arange(TILE) + 0.5, TILE - np.arange(TILE) - 0.5) / (TILE / 2)
+    window = (np.outer(ramp, ramp) + 1e-3).astype(np.float32)[..., None]
+    summed = np.zeros((height + 2 * TILE, width + 2 * TILE, 3), np.float32)
+    weights = np.zeros((*summed.shape[:2], 1), np.float32)
+    for start in range(0, len(corners), _BATCH):
+        batch = corners[start : start + _BATCH]
+        tiles = torch.from_numpy(np.stack([source.cut(*corner) for corner in batch]))
+        tiles = tiles.contiguous(memory_format=torch.channels_last)
+        with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+            predicted = network(tiles).float().permute(0, 2, 3, 1).numpy()
+        for (row, column), vectors in zip(batch, predicted, strict=True):
+            area = np.s_[row + TILE : row + 2 * TILE, column + TILE : column + 2 * TILE]
+            summed[area] += vectors * window
+            weights[area] += window
+        progress((start + len(batch)) / len(corners))
+    inner = np.s_[TILE : TILE + height, TILE : TILE + width]
+    result: NDArray[np.float32] = summed[inner] / np.maximum(weights[inner], 1e-6)
+    return result

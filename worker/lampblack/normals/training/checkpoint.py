@@ -1,0 +1,91 @@
+"""Everything a training run needs to go on, as safetensors and JSON in its folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import msgspec
+import torch
+from safetensors import SafetensorError
+from safetensors.torch import load_file
+from torch import Tensor, nn
+
+from ...errors import LampblackError
+from ..card import NetworkCard, save_network, write_tensors
+
+
+@dataclass
+class Progress:
+    """Where a run stands: steps done, seconds trained, running mean angle in degrees."""
+
+    step: int = 0
+    seconds: float = 0.0
+    angle: float = 90.0
+
+
+class Checkpoint:
+    """``network.safetensors`` holds the averaged weights, to use; ``checkpoint.safetensors``
+    all that is needed to go on; ``log.jsonl`` the course of the run."""
+
+    def __init__(
+        self,
+        folder: Path,
+        network: nn.Module,
+        average: nn.Module,
+        optimiser: torch.optim.Optimizer,
+    ) -> None:
+        self.weights = folder / "network.safetensors"
+        self._tensors = folder / "checkpoint.safetensors"
+        self._log = folder / "log.jsonl"
+        self._network, self._average, self._optimiser = network, average, optimiser
+
+    def save(self, progress: Progress, card: NetworkCard) -> None:
+        """Write checkpoint, averaged weights and a line of the log."""
+        moments = {
+            f"optimiser.{index}.{name}": torch.as_tensor(value)
+            for index, moment in self._optimiser.state_dict()["state"].items()
+            for name, value in moment.items()
+        }
+        named = {f"network.{n}": t for n, t in self._network.state_dict().items()}
+        named |= {f"average.{n}": t for n, t in self._average.state_dict().items()}
+        where = torch.tensor([progress.step, progress.seconds, progress.angle], dtype=torch.float64)
+        tensors = {n: t.contiguous().clone() for n, t in (named | moments).items()}
+        write_tensors(self._tensors, tensors | {"progress": where})
+        training = (card.training or {}) | {
+            "steps": progress.step,
+            "minutes": round(progress.seconds / 60, 1),
+        }
+        save_network(self.weights, self._average, replace(card, training=training))
+        with self._log.open("ab") as log:
+            log.write(msgspec.json.encode(progress) + b"\n")
+
+    def load(self) -> Progress:
+        """Go on from the last checkpoint, if there is one.
+
+        Raises:
+            LampblackError: it is damaged, or of another network.
+        """
+        if not self._tensors.exists():
+            return Progress()
+        try:
+            tensors = load_file(self._tensors)
+            for prefix, module in (("network.", self._network), ("average.", self._average)):
+                module.load_state_dict(
+                    {n.removeprefix(prefix): t for n, t in tensors.items() if n.startswith(prefix)}
+                )
+            step, seconds, angle = tensors["progress"].tolist()
+        except (OSError, SafetensorError, RuntimeError, KeyError) as error:
+            raise LampblackError(
+                f"The checkpoint {self._tensors} is damaged, or of another network.",
+                "Remove it to begin anew.",
+                str(error),
+            ) from error
+        state: dict[int, dict[str, Tensor]] = {}
+        for name, tensor in tensors.items():
+            if name.startswith("optimiser."):
+                _, index, field = name.split(".")
+                state.setdefault(int(index), {})[field] = tensor
+        groups = self._optimiser.state_dict()["param_groups"]
+        self._optimiser.load_state_dict({"state": state, "param_groups": groups})
+        return Progress(int(step), seconds, angle)

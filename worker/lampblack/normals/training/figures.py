@@ -1,0 +1,123 @@
+"""How the figure network is taught: whole figures on canvases of one area."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import nn
+
+from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
+from ..figure import COARSE, SIDEWAYS, canvas_for, coarse_maps, lay, shape_maps
+from .figure_loss import Batch, Loss, figure_loss
+from .stream import Stream
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A triple on its canvas: inks (K, H, W) uint8; mask (H, W) bool; normals (H, W, 3) int8;
+    shape (8, h, w) float16, see ``figure.shape_maps``; auxiliary (3, h, w) float16: depth about
+    its mean in canvas sides, share of near and of far sides of occlusions."""
+
+    inks: NDArray[np.uint8]
+    mask: NDArray[np.bool_]
+    normals: NDArray[np.int8]
+    shape: NDArray[np.float16]
+    auxiliary: NDArray[np.float16]
+
+
+def figure_of(triple: Triple, rng: np.random.Generator, side: int) -> Figure:
+    """Lay the triple's figure on its canvas, a little smaller or larger each time."""
+    rows, columns = np.flatnonzero(triple.mask.any(1)), np.flatnonzero(triple.mask.any(0))
+    box = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    inside = triple.mask[box].astype(np.float32)
+    canvas = canvas_for(inside.shape, side, float(rng.uniform(0.85, 1)))
+    planes = [triple.normals[box].astype(np.float32) / 127 * inside[..., None]]
+    planes += [triple.drawings[:, *box].transpose(1, 2, 0) / np.float32(255) * inside[..., None]]
+    depth = triple.depth[box] / np.float32(DEPTH_STEPS * max(inside.shape)) * inside
+    planes += [depth[..., None], inside[..., None]]
+    planes += [(triple.occlusion[box] == near)[..., None] for near in (IN_FRONT, BEHIND)]
+    laid = lay(np.concatenate(planes, axis=2, dtype=np.float32), canvas)
+    count = len(triple.drawings)
+    normals, inks, rest = np.split(laid, [3, 3 + count], axis=2)
+    share = rest[..., 1:2]
+    mask = share[..., 0] > 0.5
+    normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-6)
+    depth = rest[..., 0] / np.maximum(share[..., 0], 0.25)
+    depth = np.where(mask, depth - depth[mask].mean(), 0)
+    cells = np.stack([depth, *rest[..., 2:].transpose(2, 0, 1)])
+    h, w = (n // COARSE for n in mask.shape)
+    cells = cells.reshape(3, h, COARSE, w, COARSE)
+    auxiliary = np.concatenate([cells[:1].mean((2, 4)), cells[1:].max(axis=(2, 4)) > 0.25])
+    inks = np.clip(inks / np.maximum(share, 0.25), 0, 1) * mask[..., None]
+    return Figure(
+        np.round(inks.transpose(2, 0, 1) * 255).astype(np.uint8),
+        mask,
+        np.round(normals * mask[..., None] * 127).astype(np.int8),
+        shape_maps(mask).astype(np.float16),
+        auxiliary.astype(np.float16),
+    )
+
+
+class FigureCourse:
+    """Batches of whole figures, all of one canvas shape, half of them mirrored, and their loss.
+
+    Use as a context manager.
+    """
+
+    def __init__(self, data: Path, side: int, seed: int, capacity: int = 3000) -> None:
+        self._rng = np.random.default_rng(seed)
+        prepare = partial(figure_of, side=side)
+        self._stream = Stream(data, prepare, _canvas_shape, seed=seed, capacity=capacity)
+
+    def __enter__(self) -> Self:
+        self._stream.__enter__()
+        return self
+
+    def __exit__(self, *left: object) -> None:
+        self._stream.__exit__(None, None, None)
+
+    def loss(self, network: nn.Module, size: int) -> Loss:
+        """What ``network`` makes of the next ``size`` figures."""
+        batch = stack([sample(f, self._rng) for f in self._stream.take(size, self._rng)])
+        with torch.autocast("cpu", torch.bfloat16):
+            found = network(batch.fine, batch.coarse)
+        return figure_loss(found, batch)
+
+
+def _canvas_shape(figure: Figure) -> tuple[int, ...]:
+    return figure.mask.shape
+
+
+def stack(samples: list[tuple[NDArray[np.float32], ...]]) -> Batch:
+    """A batch of what ``sample`` made."""
+    fine, coarse, normals, auxiliary = (
+        torch.from_numpy(np.stack(part)) for part in zip(*samples, strict=True)
+    )
+    last = torch.channels_last
+    return Batch(
+        fine.contiguous(memory_format=last),
+        coarse.contiguous(memory_format=last),
+        normals,
+        auxiliary,
+    )
+
+
+def sample(figure: Figure, rng: np.random.Generator) -> tuple[NDArray[np.float32], ...]:
+    """Input and truth of a figure as one of its hands drew it; see ``Batch``."""
+    ink = figure.inks[rng.integers(len(figure.inks))] / np.float32(255)
+    fine = np.stack([ink, figure.mask.astype(np.float32)])
+    coarse = coarse_maps(figure.shape.astype(np.float32), ink)
+    normals = figure.normals.transpose(2, 0, 1) / np.float32(127)
+    auxiliary = figure.auxiliary.astype(np.float32)
+    parts = [fine, coarse, normals, auxiliary]
+    if rng.random() < 0.5:
+        parts = [part[..., ::-1].copy() for part in parts]
+        parts[1][list(SIDEWAYS)] *= -1
+        parts[2][0] *= -1
+    return tuple(parts)
