@@ -11,12 +11,15 @@ import os
 import shutil
 import signal
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+
+from lampblack.scene import Ambient, default_scene, encode_scene
 from registration import luminance, offset
 from window import BUILD, ROOT, Display, Pencil2D, missing, pencil2d, wait_until
 
@@ -29,7 +32,9 @@ pytestmark = [
 SIZE = (640, 720)
 SHOTS = BUILD.parent / "screenshots"
 TOOL = "lampblack.tool"
-LIT, NORMALS, RELIEF, FLAT = (f"lampblack.panel.view.{n}" for n in ("lit", "normals", "relief", "flat"))
+LIT, NORMALS, RELIEF, FLAT = (
+    f"lampblack.panel.view.{n}" for n in ("lit", "normals", "relief", "flat")
+)
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +85,7 @@ class Canvas:
 
 def keep(window: Pencil2D, name: str) -> None:
     SHOTS.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(window.display.screenshot()).save(SHOTS / f"{name}.png")
+    Image.fromarray(window.screenshot()).save(SHOTS / f"{name}.png")
 
 
 def settled(window: Pencil2D) -> None:
@@ -181,3 +186,94 @@ def test_scene_is_saved_and_found_again(display: Display, tmp_path: Path) -> Non
         light_up(window)
         ((x, y),) = window.value("lampblack", "lightPlaces")
         assert (x, y) == pytest.approx((light["x"], light["y"]))
+
+
+def test_floor_by_right_click_catches_a_shadow(window: Pencil2D) -> None:
+    canvas = Canvas(window)
+    light_up(window)
+    drag_light(window, canvas, (90, 250))
+    before = [luminance(canvas.crop(x, 652, 60, 20)).mean() for x in (150, 490)]
+    window.click_at(*canvas.screen(60, 655), button=3)
+    wait_until(lambda: window.find("lampblack.menu").get("seen"), "the menu")
+    keep(window, "menu")
+    choose(window, "lampblack.menu", "Put a Floor Here")
+    settled(window)
+    keep(window, "floor")
+    near, far = (
+        before[i] - luminance(canvas.crop(x, 652, 60, 20)).mean() for i, x in enumerate((150, 490))
+    )
+    assert far > 0.05, "a shadow lies away from the light"
+    assert far > near + 0.03
+
+
+def choose(window: Pencil2D, menu: str, entry: str) -> None:
+    """Click an entry of an open menu."""
+    entries = window.entries(menu)
+    left, top, width, height = entries[entry]
+    window.click_at(left + width / 2, top + height / 2)
+
+
+def test_glossy_colour_shows_a_highlight(window: Pencil2D) -> None:
+    canvas = Canvas(window)
+    light_up(window)
+    fur = "#4f8fb3"
+    matt = canvas.crop(0, 0, *SIZE)
+    window.click(f"lampblack.materials.glossy.{fur}")
+    settled(window)
+    keep(window, "glossy")
+    glossy = canvas.crop(0, 0, *SIZE)
+    gained = luminance(glossy) - luminance(matt)
+    assert np.count_nonzero(gained > 0.1) > 300, "a highlight appears"
+    # The belly is of another colour and stays as it was.
+    belly = np.s_[500:560, 270:330]
+    assert np.abs(gained[belly]).mean() < 0.01
+
+
+VIEWS = {
+    "zoom 33": ("actionZoom33",),
+    "zoom 300": ("actionZoom300",),
+    "turned": ("actionRotate_Clockwise",),
+    "flipped": ("actionHorizontal_Flip",),
+    "flipped and turned at 200": (
+        "actionZoom200",
+        "actionVertical_Flip",
+        "actionRotate_Anticlockwise",
+    ),
+}
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_lit_picture_lies_on_the_drawing(display: Display, tmp_path: Path, scale: float) -> None:
+    """Under light from everywhere the lit picture shows the drawn colours; the one lamp is dark,
+    and so far away that its handles are out of sight."""
+    project = project_in(tmp_path)
+    scene = default_scene(*SIZE)
+    lamp = replace(scene.lights[0], x=-9000.0, power=0.0)
+    scene = replace(scene, lights=(lamp,), ambient=Ambient(strength=1.0))
+    sidecar(project).write_bytes(encode_scene(scene))
+    with pencil2d(display, tmp_path / "window", project, scale=scale) as window:
+        light_up(window)
+        for name, actions in VIEWS.items():
+            for action in actions:
+                window.trigger(action)
+            window.click(LIT)
+            settled(window)
+            lit = window.canvas_picture()
+            keep(window, f"{name} x{scale:g}")
+            window.click(FLAT)
+            wait_until(lambda: not window.value("lampblack.overlay", "showsPicture"), "the drawing")
+            apart = offset(window.canvas_picture(), lit)
+            assert max(map(abs, apart)) < 1.0, f"{name}: {apart}"
+            window.trigger("actionReset_View")
+            for action in actions:
+                if action.endswith("Flip"):  # which the reset leaves
+                    window.trigger(action)
+
+
+def test_offsets_are_seen() -> None:
+    """What the test above measures with."""
+    picture = np.asarray(Image.open(ROOT / "docs" / "images" / "lamplighter.png").convert("RGB"))
+    left = picture[:400, :400]
+    assert offset(left, picture[2:402, 3:403]) == pytest.approx((-3, -2), abs=0.1)
+    half = (picture[:400, :400].astype(int) + picture[:400, 1:401]) // 2
+    assert offset(left, half.astype(np.uint8)) == pytest.approx((-0.5, 0), abs=0.1)

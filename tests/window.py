@@ -27,6 +27,7 @@ from PIL import Image
 ROOT = Path(__file__).parents[1]
 BUILD = Path(os.environ.get("LAMPBLACK_BUILD", ROOT / "build" / "dev"))
 PLUGINS = BUILD / "plugins"
+WINDOW = (1430, 960)
 PROGRAMS = ("pencil2d", "Xvfb", "openbox", "xdotool", "import")
 
 
@@ -55,7 +56,7 @@ def wait_until(happened: Callable[[], Any], what: str, seconds: float = 60.0) ->
 class Display:
     """A virtual X display with a window manager."""
 
-    def __init__(self, folder: Path, size: tuple[int, int] = (1440, 1000)) -> None:
+    def __init__(self, folder: Path, size: tuple[int, int] = (2900, 1960)) -> None:
         self._log = (folder / "display.log").open("ab")
         read, write = os.pipe()
         self._server = subprocess.Popen(
@@ -111,10 +112,10 @@ class Pencil2D:
         home, temporary = folder / "home", folder / "tmp"
         for each in (home, temporary):
             each.mkdir(parents=True, exist_ok=True)
-        self.display = display
+        self.display, self._scale = display, scale
         self._socket_name = str(folder / "probe")
         with suppress(FileNotFoundError):
-            os.unlink(self._socket_name)
+            Path(self._socket_name).unlink()
         keys = "lampblack,lampblackprobe" if plugin else "lampblackprobe"
         environment = {
             **display.environment,
@@ -142,7 +143,7 @@ class Pencil2D:
         wait_until(lambda: self.of_class("ScribbleArea"), "Pencil2D's canvas")
         title = project.name if project else "Pencil2D"
         self.window = wait_until(lambda: self._main_window(title), "Pencil2D's window")
-        self.display.do("windowsize", "--sync", self.window, 1430, 960)
+        self.display.do("windowsize", "--sync", self.window, *(round(n * scale) for n in WINDOW))
         self.display.do("windowmove", "--sync", self.window, 2, 20)
         self.display.do("windowactivate", "--sync", self.window)
 
@@ -169,6 +170,12 @@ class Pencil2D:
     def names(self, prefix: str) -> dict[str, bool]:
         return self._ask({"do": "names", "name": prefix})
 
+    def entries(self, menu: str) -> dict[str, tuple[int, int, int, int]]:
+        """Left, top, width, height of each entry of an open menu."""
+        return {
+            text: tuple(place) for text, place in self._ask({"do": "entries", "name": menu}).items()
+        }
+
     def trigger(self, action: str) -> None:
         assert self._ask({"do": "trigger", "name": action})["done"], action
 
@@ -188,8 +195,13 @@ class Pencil2D:
         """Left, top, width, height of a visible widget, by object name or class."""
         said = self.find(name) or self.of_class(name)
         assert said.get("seen"), f"{name} is not in sight"
-        left, top, width, height = said["rect"]
+        left, top, width, height = (round(n * self._scale) for n in said["rect"])
         return left, top, width, height
+
+    def screenshot(self) -> NDArray[np.uint8]:
+        """(H, W, 3) uint8, sRGB: the screen as far as the window reaches."""
+        width, height = (round(n * self._scale) + 30 for n in WINDOW)
+        return self.display.screenshot()[:height, :width]
 
     def canvas_picture(self) -> NDArray[np.uint8]:
         left, top, width, height = self.rect("ScribbleArea")

@@ -15,6 +15,7 @@
 #include <QLabel>
 #include <QLocalServer>
 #include <QLocalSocket>
+#include <QMenu>
 #include <QMetaProperty>
 #include <QMouseEvent>
 #include <QTransform>
@@ -191,6 +192,8 @@ private:
             const QVariant value = asked.value(QStringLiteral("value")).toVariant();
             return {{QStringLiteral("done"), object && object->setProperty(property.constData(), value)}};
         }
+        if (what == QLatin1String("entries"))
+            return entries(qobject_cast<QMenu*>(named(name)));
         if (what == QLatin1String("stalls"))
         {
             const QJsonObject report = mStalls.report();
@@ -213,6 +216,21 @@ private:
             return {{QStringLiteral("done"), widget && widget->grab().save(path)}};
         }
         return {{QStringLiteral("error"), QStringLiteral("what is \"%1\"?").arg(what)}};
+    }
+
+    /// Where each entry of an open menu stands on the screen, by its text.
+    static QJsonObject entries(const QMenu* menu)
+    {
+        QJsonObject found;
+        if (menu != nullptr && menu->isVisible())
+            for (QAction* action : menu->actions())
+            {
+                const QRect place = menu->actionGeometry(action);
+                const QPoint corner = menu->mapToGlobal(place.topLeft());
+                found.insert(action->text(),
+                             QJsonArray{corner.x(), corner.y(), place.width(), place.height()});
+            }
+        return found;
     }
 
     /// Names that begin with `prefix`, and whether each is a visible widget.
