@@ -5,8 +5,8 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
+#include <QEvent>
 #include <QLineEdit>
-#include <QSettings>
 #include <QSpinBox>
 
 namespace lampblack
@@ -26,22 +26,22 @@ template <class Widget> Widget* child(QDialog* dialog, const char* name)
 class BorrowedPath
 {
 public:
-    explicit BorrowedPath(const QString& path)
-        : mSettings(QStringLiteral("Pencil"), QStringLiteral("Pencil")), mBefore(mSettings.value(PathKey))
+    BorrowedPath(QSettings* settings, const QString& path)
+        : mSettings(settings), mBefore(settings->value(PathKey))
     {
-        mSettings.setValue(PathKey, path);
+        mSettings->setValue(PathKey, path);
     }
     ~BorrowedPath()
     {
         if (mBefore.isValid())
-            mSettings.setValue(PathKey, mBefore);
+            mSettings->setValue(PathKey, mBefore);
         else
-            mSettings.remove(PathKey);
+            mSettings->remove(PathKey);
     }
     Q_DISABLE_COPY_MOVE(BorrowedPath)
 
 private:
-    QSettings mSettings;
+    QSettings* mSettings;
     QVariant mBefore;
 };
 
@@ -93,6 +93,11 @@ bool orderFrames(QDialog* dialog, int first, int last, const QString& camera, co
 
 } // namespace
 
+bool QuietSettings::event(QEvent* event)
+{
+    return event->type() == QEvent::UpdateRequest || QSettings::event(event);
+}
+
 ExportDialog::ExportDialog(const Parts& parts) : mParts(parts)
 {
 }
@@ -132,7 +137,7 @@ Exported ExportDialog::look()
 Exported ExportDialog::run(int first, int last, const QString& camera, const QString& directory)
 {
     const QString path = QDir(directory).filePath(QStringLiteral("frame.png"));
-    const BorrowedPath borrowed(path);
+    const BorrowedPath borrowed(&mSettings, path);
     Exported exported = open([&](QDialog* dialog) { return orderFrames(dialog, first, last, camera, path); });
     for (int frame = first; frame <= last; ++frame)
     {

@@ -4,6 +4,7 @@
 #include "host/parts.h"
 
 #include <QMap>
+#include <QSettings>
 #include <QSize>
 #include <QStringList>
 
@@ -22,6 +23,19 @@ struct Exported
     QString fault;            ///< what the program complained about; empty if all went well
 };
 
+/// Pencil2D's settings, shared with it in memory but not written by us at every change: that waits for
+/// the disk, and what we change we put back.
+class QuietSettings : public QSettings
+{
+    Q_OBJECT
+
+public:
+    QuietSettings() : QSettings(QStringLiteral("Pencil"), QStringLiteral("Pencil")) {}
+
+protected:
+    bool event(QEvent* event) override;
+};
+
 class ExportDialog
 {
 public:
@@ -37,6 +51,7 @@ private:
     Exported open(const std::function<bool(QDialog*)>& answer);
 
     Parts mParts;
+    QuietSettings mSettings;
 };
 
 } // namespace lampblack
