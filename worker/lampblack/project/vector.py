@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import weakref
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -39,9 +40,6 @@ class VectorPictures:
 
     archive: Archive
     origin: tuple[int, int]
-    _folder: tempfile.TemporaryDirectory[str] = field(
-        default_factory=lambda: tempfile.TemporaryDirectory(prefix="lampblack-vector-")
-    )
     _exported: dict[tuple[int, int], Path] = field(default_factory=dict)
 
     def picture(self, layer: Layer, key: Key, region: Region) -> NDArray[np.uint8]:
@@ -63,8 +61,8 @@ class VectorPictures:
                 "Install it (on Debian: apt-get install pencil2d), or leave the layer out: "
                 f'--background "{layer.name}", or hide it.',
             )
-        folder = Path(self._folder.name) / str(len(self._exported))
-        folder.mkdir()
+        folder = Path(tempfile.mkdtemp(prefix="lampblack-vector-"))
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         project = folder / "layer.pclx"
         with zipfile.ZipFile(project, "w") as archive:
             for number, key in enumerate(layer.keys, start=1):
