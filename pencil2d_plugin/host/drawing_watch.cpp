@@ -1,5 +1,7 @@
 #include "host/drawing_watch.h"
 
+#include <cstdlib>
+
 namespace lampblack
 {
 
@@ -54,7 +56,15 @@ DrawingWatch::DrawingWatch(const Parts& parts, Idleness* idleness, QObject* pare
         timer->setSingleShot(true);
         timer->setInterval(DebounceMs);
     }
-    connect(&mDebounce, &QTimer::timeout, this, &DrawingWatch::changed);
+    connect(&mDebounce, &QTimer::timeout, this,
+            [this]
+            {
+                // A stroke announces itself before it is drawn.
+                if (mIdleness->areHandsOff())
+                    Q_EMIT changed();
+                else
+                    mDebounce.start();
+            });
     connect(&mLayerDebounce, &QTimer::timeout, this, &DrawingWatch::layersTouched);
     connect(idleness, &Idleness::released, this, &DrawingWatch::onReleased);
     connect(idleness, &Idleness::keyReleased, this, &DrawingWatch::onKey);
@@ -93,14 +103,24 @@ void DrawingWatch::touchLayers()
     mDebounce.start();
 }
 
-void DrawingWatch::onReleased(QObject* where)
+void DrawingWatch::onReleased(QObject* where, const Gesture& gesture)
 {
     if (where == mParts.canvas && !mToolActive)
         touch();
     else if (where == mParts.trackCells)
         touch();
     else if (where == mParts.layerCells)
+        onLayerCells(gesture);
+}
+
+void DrawingWatch::onLayerCells(const Gesture& gesture)
+{
+    constexpr int EyeEnd = 20;
+    constexpr int DragStart = 5;
+    if (gesture.doubleClick || std::abs(gesture.to.y() - gesture.from.y()) > DragStart)
         touchLayers();
+    else if (gesture.from.x() < EyeEnd)
+        Q_EMIT eyeTouched();
 }
 
 void DrawingWatch::onKey(int key)

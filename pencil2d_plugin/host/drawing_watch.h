@@ -21,14 +21,16 @@ public:
 
 Q_SIGNALS:
     void changed();       ///< once, a little after the last of a burst
-    void layersTouched(); ///< the list of layers was clicked, or its length changed
+    void layersTouched(); ///< layers may have come, gone, moved or been renamed
+    void eyeTouched();    ///< a layer may have been shown or hidden
 
 private Q_SLOTS:
     void touch();
     void touchLayers();
 
 private:
-    void onReleased(QObject* where);
+    void onReleased(QObject* where, const Gesture& gesture);
+    void onLayerCells(const Gesture& gesture);
     void onKey(int key);
 
     Parts mParts;

@@ -16,10 +16,15 @@ Idleness::Idleness(QObject* parent) : QObject(parent)
     QCoreApplication::instance()->installEventFilter(this);
 }
 
+bool Idleness::areHandsOff() const
+{
+    return !mPenDown && QGuiApplication::mouseButtons() == Qt::NoButton;
+}
+
 bool Idleness::isIdle() const
 {
-    return mWork == 0 && !mPenDown && QGuiApplication::mouseButtons() == Qt::NoButton &&
-           QApplication::activeModalWidget() == nullptr && QApplication::activePopupWidget() == nullptr &&
+    return mWork == 0 && areHandsOff() && QApplication::activeModalWidget() == nullptr &&
+           QApplication::activePopupWidget() == nullptr &&
            (!mSinceKey.isValid() || mSinceKey.elapsed() > TypingPauseMs);
 }
 
@@ -34,21 +39,36 @@ bool Idleness::eventFilter(QObject* watched, QEvent* event)
         break;
     case QEvent::TabletRelease:
         mPenDown = false;
-        Q_EMIT released(watched);
+        if (watched->isWidgetType())
+            Q_EMIT released(watched, {});
         break;
     case QEvent::TabletLeaveProximity:
         mPenDown = false;
         break;
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonDblClick:
+        if (watched->isWidgetType())
+        {
+            const QPoint at = static_cast<QMouseEvent*>(event)->pos();
+            mGesture = {at, at, event->type() == QEvent::MouseButtonDblClick};
+        }
+        break;
     case QEvent::MouseButtonRelease:
         if (watched->isWidgetType())
-            Q_EMIT released(watched);
+        {
+            mGesture.to = static_cast<QMouseEvent*>(event)->pos();
+            Q_EMIT released(watched, mGesture);
+        }
         break;
     case QEvent::KeyPress:
         mSinceKey.start();
         break;
     case QEvent::KeyRelease:
-        if (watched->isWidgetType())
-            Q_EMIT keyReleased(static_cast<QKeyEvent*>(event)->key());
+        if (auto* key = static_cast<QKeyEvent*>(event);
+            watched->isWidgetType() && (key->modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier)) == 0)
+        {
+            Q_EMIT keyReleased(key->key());
+        }
         break;
     default:
         break;

@@ -3,9 +3,18 @@
 
 #include <QElapsedTimer>
 #include <QObject>
+#include <QPoint>
 
 namespace lampblack
 {
+
+/// From a button's press to its release, in the widget's coordinates.
+struct Gesture
+{
+    QPoint from;
+    QPoint to;
+    bool doubleClick = false;
+};
 
 class Idleness : public QObject
 {
@@ -17,6 +26,9 @@ public:
     /// No button or pen is down, no menu or dialog is open, nothing was typed just now, and none of our
     /// own work is under way.
     bool isIdle() const;
+
+    /// No button or pen is down.
+    bool areHandsOff() const;
 
     /// While it lives, we drive the program ourselves: nobody is idle and no release is the artist's.
     class Work
@@ -34,10 +46,11 @@ public:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-    void released(QObject* where); ///< a button or pen went up over this widget
-    void keyReleased(int key);
+    void released(QObject* where, const lampblack::Gesture& gesture); ///< a button or pen went up
+    void keyReleased(int key);                                        ///< without Ctrl, Alt or Meta
 
 private:
+    Gesture mGesture;
     bool mPenDown = false;
     int mWork = 0;
     QElapsedTimer mSinceKey;

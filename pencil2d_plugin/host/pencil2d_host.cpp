@@ -13,6 +13,11 @@ constexpr int SurveyMs = 50;
 constexpr int MaxLayerAttempts = 20; ///< the list is not laid out at once
 const QSize DefaultCanvas(800, 600);
 
+bool isSame(const Layer& a, const Layer& b)
+{
+    return a.name == b.name && a.kind == b.kind && a.visible == b.visible;
+}
+
 } // namespace
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
@@ -53,6 +58,7 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
                 Q_EMIT drawingChanged(currentFrame());
             });
     connect(&mDrawing, &DrawingWatch::layersTouched, this, &Pencil2DHost::onLayersTouched);
+    connect(&mDrawing, &DrawingWatch::eyeTouched, this, &Pencil2DHost::surveyEyes);
     connect(&mQueue, &FrameQueue::looked, this, &Pencil2DHost::onLooked);
     connect(&mQueue, &FrameQueue::exported, this, &Pencil2DHost::onExported);
     connect(&mQueue, &FrameQueue::failed, this, &Host::exportFailed);
@@ -185,6 +191,7 @@ void Pencil2DHost::onCurrentLayerChanged(int index)
 void Pencil2DHost::onProjectOpened(const QString& path)
 {
     mQueue.cancel();
+    mLayers.clear();
     mLayersKnown = false;
     mCameraKnown = false;
     mSurvey.start();
@@ -235,23 +242,10 @@ void Pencil2DHost::survey()
         if (lampblack::whyNot(mParts, Ability::Frames).isEmpty())
             onLooked(ExportDialog(mParts).look());
     }
-    if (!mLayersKnown && lampblack::whyNot(mParts, Ability::Layers).isEmpty())
+    if (!mLayersKnown && lampblack::whyNot(mParts, Ability::Layers).isEmpty() && !surveyLayers())
     {
-        const Idleness::Work work(&mIdleness);
-        const QVector<Layer> layers = mRows.read();
-        mLayersAnswer = !layers.isEmpty();
-        mLayersKnown = mLayersAnswer || ++mLayerAttempts >= MaxLayerAttempts;
-        if (!mLayersKnown)
-        {
-            mSurvey.start();
-            return;
-        }
-        mLayerAttempts = 0;
-        mLayers = layers;
-        mQueue.setLayers(layers);
-        const int row = mRows.currentRow();
-        mOnCamera = row >= 0 && row < layers.size() && layers[row].kind == Layer::Kind::Camera;
-        Q_EMIT layersChanged();
+        mSurvey.start();
+        return;
     }
     if (!mCameraKnown)
     {
@@ -265,6 +259,41 @@ void Pencil2DHost::survey()
         }
         mCameraKnown = true;
     }
+}
+
+bool Pencil2DHost::surveyLayers()
+{
+    const Idleness::Work work(&mIdleness);
+    const QVector<Layer> layers = mRows.read();
+    mLayersAnswer = !layers.isEmpty();
+    mLayersKnown = mLayersAnswer || ++mLayerAttempts >= MaxLayerAttempts;
+    if (!mLayersKnown)
+        return false;
+    mLayerAttempts = 0;
+    const int row = mRows.currentRow();
+    mOnCamera = row >= 0 && row < layers.size() && layers[row].kind == Layer::Kind::Camera;
+    if (std::equal(layers.begin(), layers.end(), mLayers.begin(), mLayers.end(), isSame))
+        return true;
+    mLayers = layers;
+    mQueue.setLayers(layers);
+    Q_EMIT layersChanged();
+    return true;
+}
+
+void Pencil2DHost::surveyEyes()
+{
+    const QVector<bool> eyes = mRows.eyes(mLayers.size());
+    bool changed = false;
+    for (int row = 0; row < eyes.size(); ++row)
+    {
+        changed = changed || mLayers[row].visible != eyes[row];
+        mLayers[row].visible = eyes[row];
+    }
+    if (!changed)
+        return;
+    mQueue.setLayers(mLayers);
+    Q_EMIT layersChanged();
+    Q_EMIT drawingChanged(currentFrame());
 }
 
 void Pencil2DHost::surveyCamera(int row)

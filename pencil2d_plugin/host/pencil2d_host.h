@@ -61,6 +61,8 @@ private:
     void onExported(int frame, const QImage& image);
     void onProjectOpened(const QString& path);
     void onLayersTouched();
+    bool surveyLayers();
+    void surveyEyes();
 
     Parts mParts;
     Idleness mIdleness;

@@ -2,11 +2,13 @@
 #include "host/host.h"
 #include "host/layer_rows.h"
 #include "host/parts.h"
+#include "host/unseen_dialogs.h"
 #include "known_drawing.h"
 
 #include <QApplication>
 #include <QDir>
 #include <QGenericPlugin>
+#include <QInputDialog>
 #include <QLabel>
 #include <QLineF>
 #include <QScreen>
@@ -236,6 +238,17 @@ private Q_SLOTS:
         QVERIFY(mHost->layers().first().visible);
     }
 
+    void choosingALayerIsNoChange()
+    {
+        QSignalSpy changed(mHost, &Host::layersChanged);
+        QSignalSpy drawn(mHost, &Host::drawingChanged);
+        QTest::mouseClick(mParts.layerCells, Qt::LeftButton, Qt::NoModifier, QPoint(80, 30));
+        QTest::qWait(300);
+        QTest::mouseClick(mParts.layerCells, Qt::LeftButton, Qt::NoModifier, QPoint(80, 50));
+        QTest::qWait(300);
+        QCOMPARE(changed.size() + drawn.size(), 0);
+    }
+
     void viewIsRight()
     {
         constexpr double Exact = 0.01;
@@ -344,6 +357,23 @@ private Q_SLOTS:
         QTRY_COMPARE(saved.size(), 1);
         QCOMPARE(saved.first().first().toString(), mHost->projectPath());
         QVERIFY(!mHost->isModified());
+    }
+
+    void newLayerIsTold()
+    {
+        QSignalSpy changed(mHost, &Host::layersChanged);
+        {
+            const UnseenDialogs unseen(
+                [](QDialog* dialog)
+                {
+                    qobject_cast<QInputDialog*>(dialog)->setTextValue(QStringLiteral("Extra"));
+                    dialog->accept();
+                });
+            trigger("actionNew_Bitmap_Layer");
+        }
+        QTRY_COMPARE(changed.size(), 1);
+        QCOMPARE(mHost->layers().size(), 6);
+        QCOMPARE(mHost->layers().first().name, QStringLiteral("Extra"));
     }
 
     void movingCameraIsKnown()
