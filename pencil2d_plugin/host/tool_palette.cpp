@@ -1,7 +1,11 @@
 #include "host/tool_palette.h"
 
+#include <QActionGroup>
+#include <QGuiApplication>
 #include <QLayout>
 #include <QMenu>
+
+#include <algorithm>
 
 namespace lampblack
 {
@@ -40,8 +44,8 @@ void ToolPalette::add(QAction* tool)
 
     connect(tool, &QAction::toggled, this, &ToolPalette::onToggled);
     // A second press of the tool in use keeps it, as with the others.
-    connect(tool, &QAction::triggered, this, [tool] { tool->setChecked(true); });
-    connect(mParts.tools, SIGNAL(toolChanged(ToolType)), this, SLOT(leave()));
+    (new QActionGroup(this))->addAction(tool);
+    connect(mParts.tools, SIGNAL(toolChanged(ToolType)), this, SLOT(onToolChanged()));
     for (QToolButton* other : tools)
         connect(other, &QToolButton::clicked, this, &ToolPalette::leave);
 
@@ -88,8 +92,24 @@ void ToolPalette::enter()
     }
 }
 
+void ToolPalette::onToolChanged()
+{
+    if (mAction == nullptr || !mAction->isChecked())
+        return;
+    // Alt takes the eyedropper, for one, and gives the tool back on release: no choice of the artist's.
+    const bool held = QGuiApplication::queryKeyboardModifiers() != Qt::NoModifier;
+    if (!held && !mBorrowed)
+    {
+        leave();
+        return;
+    }
+    mBorrowed = held;
+    enter();
+}
+
 void ToolPalette::leave()
 {
+    mBorrowed = false;
     if (mAction != nullptr)
         mAction->setChecked(false);
 }

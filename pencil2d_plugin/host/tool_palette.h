@@ -20,9 +20,10 @@ Q_SIGNALS:
     void activated(bool active);
 
 private Q_SLOTS:
-    void leave();
+    void onToolChanged();
 
 private:
+    void leave();
     void onToggled(bool checked);
     void enter();
 
@@ -30,6 +31,7 @@ private:
     QPointer<QAction> mAction;
     QPointer<QToolButton> mButton;
     QPointer<QToolButton> mBefore; ///< the program's tool that ours stands in for
+    bool mBorrowed = false;        ///< the program changed its tool for as long as a key is held
 };
 
 } // namespace lampblack

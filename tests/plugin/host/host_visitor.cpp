@@ -304,7 +304,7 @@ private Q_SLOTS:
         QCOMPARE(active.takeLast().first().toBool(), true);
         QVERIFY(!pencil->isChecked() && panel->isVisible() && !sizes->isVisible());
         QTest::mouseClick(button, Qt::LeftButton);
-        QVERIFY(tool->isChecked());
+        QVERIFY(tool->isChecked() && active.isEmpty());
         // The program's current tool is still the pencil: choosing it again must count.
         QTest::mouseClick(pencil, Qt::LeftButton);
         QCOMPARE(active.takeLast().first().toBool(), false);

@@ -152,7 +152,8 @@ private Q_SLOTS:
         QAction tool;
         tool.setCheckable(true);
         host->addTool(&tool);
-        host->setToolPanel(new QLabel);
+        QLabel panel;
+        host->setToolPanel(&panel);
         tool.setChecked(true);
         QTest::qWait(100);
         QVERIFY(host->layers().isEmpty());
