@@ -13,7 +13,7 @@ Studio::Studio(Host& host, QObject* parent)
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
       mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mTool)),
       mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, mDocument)),
-      mProject(std::make_unique<ProjectScene>(host, mDocument))
+      mProject(std::make_unique<ProjectScene>(host, mDocument)), mRoom(host)
 {
     setObjectName(QStringLiteral("lampblack"));
     connect(mTool.get(), &LampTool::activeChanged, this, &Studio::follow);

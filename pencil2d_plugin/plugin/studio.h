@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/host.h"
+#include "plugin/dock_room.h"
 #include "plugin/frame_feed.h"
 #include "plugin/lit_view.h"
 #include "plugin/project_scene.h"
@@ -54,6 +55,7 @@ private:
     std::unique_ptr<LitView> mView;
     std::unique_ptr<ShotJob> mJob;
     std::unique_ptr<ProjectScene> mProject;
+    DockRoom mRoom;
     QMap<QString, qint64> mColours; ///< flat colours of the frames seen, and how many pixels wear each
     qulonglong mSent = 0;
     LookImage mShown;

@@ -183,7 +183,10 @@ private:
             // Queued: an action that opens a dialog would not come back.
             if (action)
                 QMetaObject::invokeMethod(action, &QAction::trigger, Qt::QueuedConnection);
-            return {{QStringLiteral("done"), action != nullptr}};
+            auto* button = qobject_cast<QAbstractButton*>(named(name));
+            if (button)
+                QMetaObject::invokeMethod(button, &QAbstractButton::click, Qt::QueuedConnection);
+            return {{QStringLiteral("done"), action || button}};
         }
         if (what == QLatin1String("set"))
         {
