@@ -100,6 +100,7 @@ def test_help_has_an_example_for_every_command(run: Run) -> None:
         "serve",
         "normals",
         "mesh",
+        "export",
         "palette",
         "scene",
         "train",

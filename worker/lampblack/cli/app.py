@@ -12,6 +12,7 @@ from .bench import bench
 from .console import EXIT_INTERRUPTED, console, for_people
 from .dataset import dataset
 from .doctor import doctor
+from .export import export
 from .learn import evaluate, train
 from .render import render
 from .serve import serve
@@ -40,7 +41,19 @@ def _interruptible(command: Callable[..., None]) -> Callable[..., None]:
     return call
 
 
-for command in (render, serve, normals, mesh, palette, scene, train, evaluate, bench, doctor):
+for command in (
+    render,
+    serve,
+    normals,
+    mesh,
+    export,
+    palette,
+    scene,
+    train,
+    evaluate,
+    bench,
+    doctor,
+):
     app.command()(_interruptible(command))
 app.add_typer(dataset, name="dataset")
 

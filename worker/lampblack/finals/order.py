@@ -70,6 +70,16 @@ class Order(msgspec.Struct, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True)
+class OpenShot:
+    """What an order is made from: the frames it names and how they are lit; the files read."""
+
+    shot: Shot
+    frames: list[ShotFrame]
+    staging: Staging
+    sources: list[Path]
+
+
+@dataclass(frozen=True)
 class OpenOrder:
     """An order whose files were found and found sound."""
 
@@ -88,6 +98,20 @@ def open_order(order: Order) -> OpenOrder:
         LampblackError: something is missing, mistyped, or would be overwritten.
     """
     targets = Targets(order.output, order.format)
+    opened = open_shot(order)
+    targets.prepare(opened.frames, opened.sources)
+    options = PipelineOptions(solver=order.solver)
+    if order.grids is not None:
+        options = PipelineOptions(order.grids, order.solver)
+    return OpenOrder(opened.shot, opened.frames, opened.staging, targets, options, order.again)
+
+
+def open_shot(order: Order) -> OpenShot:
+    """Read what ``order`` names, wherever it is to go.
+
+    Raises:
+        LampblackError: something is missing or mistyped.
+    """
     read = None if order.scene is None else read_scene(Path(order.scene))
     shot: Shot
     if any(is_project(path) for path in order.inputs):
@@ -105,11 +129,7 @@ def open_order(order: Order) -> OpenOrder:
         sources = [frame.path for frame in found]
         frames = list(shot.frames)
     staging = Staging(read, order.lights, order.floor, order.quality)
-    targets.prepare(frames, sources)
-    options = PipelineOptions(solver=order.solver)
-    if order.grids is not None:
-        options = PipelineOptions(order.grids, order.solver)
-    return OpenOrder(shot, frames, staging, targets, options, order.again)
+    return OpenShot(shot, frames, staging, sources)
 
 
 def sidecar_of(project: str | Path) -> Path:

@@ -13,7 +13,19 @@ import traceback
 from io import FileIO
 from typing import NoReturn
 
-from .wire import Array, Expose, Failed, Load, Message, Trace, Traced, WireError, receive, send
+from .wire import (
+    Array,
+    Expose,
+    Failed,
+    Load,
+    Message,
+    SaveBlend,
+    Trace,
+    Traced,
+    WireError,
+    receive,
+    send,
+)
 
 Received = tuple[Message, list[Array]]
 
@@ -43,6 +55,12 @@ def main() -> NoReturn:
                 light = trace(stage, denoiser, message)
                 found = (light.diffuse, light.glossy, light.floor, light.open_floor)
                 send(answers, Traced(), [array for array in found if array is not None])
+            elif isinstance(message, SaveBlend):
+                from .blend import save_blend
+
+                save_blend(stage, message, *arrays)  # type: ignore[arg-type]
+                send(answers, Traced())
+                os._exit(0)
         except OSError:
             os._exit(0)
         except Exception as error:

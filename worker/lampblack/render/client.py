@@ -9,8 +9,9 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from io import FileIO
+from pathlib import Path
 from types import TracebackType
 from typing import IO, Literal, Self, cast
 
@@ -18,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RenderError
-from ..scene import AreaLight
+from ..scene import Ambient, AreaLight
 from .passes import LightPasses, Passes
 from .request import RenderRequest, Surface
-from .wire import Array, Expose, Failed, Load, Trace, Traced, WireError, receive, send
+from .wire import Array, Expose, Failed, Load, SaveBlend, Trace, Traced, WireError, receive, send
 
 # The child gets only these: a drawing program's own library and Python paths would break it.
 KEPT_VARIABLES = ("PATH", "HOME", "LANG", "TMPDIR", "TEMP", "TMP", "SYSTEMROOT")
@@ -88,6 +89,34 @@ class RenderChild:
         """
         with self._conversation(surface):
             return self._ask(job)
+
+    def save_blend(
+        self,
+        request: RenderRequest,
+        ambient: Ambient,
+        ink: Array,
+        diffuse: Array,
+        unlit: Array,
+        path: Path,
+    ) -> None:
+        """Write the scene of ``request`` as a .blend; the child is spent by it.
+
+        Args:
+            request: its lights with their colours and powers.
+            ink: (H, W, 4) float32 sRGB, straight alpha: the line over the figure.
+            diffuse, unlit: (V,) float32, 1 where a vertex is diffuse, or left as drawn.
+
+        Raises:
+            RenderError: Blender could not write it.
+        """
+        height, width = ink.shape[:2]
+        job = SaveBlend(
+            request.canvas, request.view, (width, height), request.lights, ambient, request.floor,
+            str(path),
+        )  # fmt: skip
+        with self._conversation(request.surface):
+            self._ask(job, [ink, diffuse, unlit])
+        self._end()
 
     @contextlib.contextmanager
     def _conversation(self, surface: Surface) -> Iterator[None]:
@@ -180,8 +209,10 @@ class RenderChild:
         )
         return LightPasses(*arrays)
 
-    def _ask(self, job: Trace | Expose) -> tuple[NDArray[np.float32], ...]:
-        send(self._pipe("stdin"), job)
+    def _ask(
+        self, job: Trace | Expose | SaveBlend, arrays: Iterable[Array] = ()
+    ) -> tuple[NDArray[np.float32], ...]:
+        send(self._pipe("stdin"), job, arrays)
         message, arrays = receive(self._pipe("stdout"))
         if isinstance(message, Failed):
             self._loaded, self._surface = b"", None

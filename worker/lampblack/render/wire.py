@@ -17,7 +17,7 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
-from ..scene import AreaLight, Canvas, Floor
+from ..scene import Ambient, AreaLight, Canvas, Floor
 from .quality import Quality
 
 MAX_HEADER_BYTES = 1 << 20
@@ -63,6 +63,20 @@ class Expose(msgspec.Struct, tag=True):
     develop: bool
 
 
+class SaveBlend(msgspec.Struct, tag=True):
+    """Write all of a scene to ``path``, a .blend of ``size`` pixels. Arrays: the ink, (H, W, 4)
+    sRGB with straight alpha, and where the figure is diffuse and unlit, (V,). Answered by
+    Traced, without arrays, or Failed."""
+
+    canvas: Canvas
+    view: tuple[float, float, float, float]
+    size: tuple[int, int]
+    lights: tuple[AreaLight, ...]
+    ambient: Ambient
+    floor: Floor | None
+    path: str
+
+
 class Traced(msgspec.Struct, tag=True):
     """Arrays: diffuse, glossy and, with a floor, floor and open_floor; of an exposure, those
     of its subject."""
@@ -75,7 +89,7 @@ class Failed(msgspec.Struct, tag=True):
     details: str
 
 
-Message = Load | Trace | Expose | Traced | Failed
+Message = Load | Trace | Expose | SaveBlend | Traced | Failed
 
 
 class ArraySpec(msgspec.Struct, array_like=True):

@@ -1,0 +1,77 @@
+"""``lampblack export``: a frame's scene for other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..drawing import take_apart
+from ..errors import LampblackError
+from ..finals.order import Order, open_shot
+from ..finals.scene_file import SUFFIXES, save_scene
+from ..pipeline import Pipeline, PipelineOptions
+from ..scene import Canvas
+from ..timeline import scene_at
+from .options import (
+    BackgroundOption,
+    CameraOption,
+    CharacterOption,
+    InkOption,
+    LineOption,
+    MaskOption,
+    QualityOption,
+    SceneOption,
+    check_suffix,
+    keep_inputs,
+    layer_roles,
+    open_cache,
+)
+
+
+def export(
+    drawing: Annotated[Path, typer.Argument(metavar="INPUT", help="A PNG, a folder or a .pclx.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="A .blend or .glb file.")],
+    frame: Annotated[
+        int | None, typer.Option("--frame", min=0, help="Its number. Default: the first.")
+    ] = None,
+    scene: SceneOption = None,
+    quality: QualityOption = None,
+    character: CharacterOption = None,
+    line: LineOption = None,
+    background: BackgroundOption = None,
+    camera: CameraOption = None,
+    mask: MaskOption = None,
+    ink: InkOption = None,
+) -> None:
+    """Write a frame's relief, lights, floor and camera, to go on with in Blender.
+
+    A .glb holds the relief in its drawing's colours. Quality says how fine the relief is.
+
+    Example: lampblack export walk.pclx --frame 12 -o walk.0012.blend
+    """
+    check_suffix(output, *SUFFIXES)
+    keep_inputs(output, [drawing])
+    order = Order(
+        inputs=(str(drawing),),
+        output="",
+        scene=None if scene is None else str(scene),
+        quality=None if quality is None else quality.value,
+        frames=None if frame is None else str(frame),
+        mask=None if mask is None else str(mask),
+        ink=None if ink is None else str(ink),
+        roles=layer_roles(character, line, background),
+        camera=camera,
+    )
+    opened = open_shot(order)
+    if not opened.frames:
+        raise LampblackError("There is no frame to export.")
+    chosen = opened.frames[0]
+    cel = opened.shot.cel(chosen)
+    taken = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
+    canvas = opened.shot.canvas or Canvas(*taken.size)
+    staged = scene_at(opened.staging.scene(canvas), chosen.number or 1)
+    staged = opened.shot.place(staged, taken.size)
+    with Pipeline(open_cache(), PipelineOptions()) as pipeline:
+        save_scene(pipeline, taken, staged, output)

@@ -1,0 +1,74 @@
+"""A frame's scene in three dimensions: GLB for any program, .blend for Blender."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from PIL import Image
+from trimesh.visual.material import PBRMaterial
+from trimesh.visual.texture import TextureVisuals
+
+from ..atomic import atomic_file, atomic_path
+from ..drawing import Drawing
+from ..pipeline import Pipeline
+from ..render import QUALITIES, frame_request, standing_on
+from ..scene import Scene
+from ..surface import Relief
+
+SUFFIXES = (".glb", ".blend")
+GLOSSY, MATT = 0.5, 1.0
+
+
+def save_scene(pipeline: Pipeline, drawing: Drawing, scene: Scene, path: Path) -> None:
+    """Write the relief in its drawing's colours; into a .blend also lights, floor and camera.
+
+    Both: half the canvas's long side is 1, the canvas's centre is the origin, x right, y up, z
+    to the viewer. (Blender shows a GLB turned upright: it counts z upwards.)
+
+    Raises:
+        OutputError: it cannot be written. RenderError: Blender failed.
+    """
+    relief = pipeline.relief(
+        drawing, relief_scale=scene.relief_scale, stride=QUALITIES[scene.quality].mesh_stride
+    )
+    if path.suffix.lower() == ".glb":
+        _save_glb(drawing, relief, scene, path)
+        return
+    request = frame_request(drawing, relief, scene)
+    ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
+    materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
+    materials.append(scene.default_material)
+    worn = drawing.labels[standing_on(drawing.labels, relief.vertices)]
+    diffuse = np.array([m.diffuse for m in materials], np.float32)[worn]
+    unlit = np.array([not (m.diffuse or m.glossy) for m in materials], np.float32)[worn]
+    with atomic_path(path) as temporary:
+        pipeline.child.save_blend(request, scene.ambient, ink, diffuse, unlit, temporary.resolve())
+
+
+def _save_glb(drawing: Drawing, relief: Relief, scene: Scene, path: Path) -> None:
+    width, height = drawing.size
+    places = relief.vertices[:, :2] / [width, height]
+    material = PBRMaterial(  # type: ignore[no-untyped-call]
+        name="drawing",
+        baseColorTexture=Image.fromarray(_flat(drawing)),
+        metallicFactor=0.0,
+        roughnessFactor=GLOSSY if scene.default_material.glossy else MATT,
+    )
+    texture = TextureVisuals(  # type: ignore[no-untyped-call]
+        uv=np.column_stack([places[:, 0], 1 - places[:, 1]]), material=material
+    )
+    centre = np.array([width / 2, height / 2, 0], np.float32)
+    vertices = (relief.vertices - centre) * [1, -1, 1] / scene.canvas.default_height
+    mesh = trimesh.Trimesh(vertices, relief.faces, visual=texture, process=False)
+    with atomic_file(path) as file:
+        file.write(bytes(mesh.export(file_type="glb")))  # type: ignore[arg-type]
+
+
+def _flat(drawing: Drawing) -> NDArray[np.uint8]:
+    """(H, W, 3) uint8 sRGB: fill and line, carried on past the edge so that none shows white."""
+    ink = drawing.ink[..., None]
+    colour = drawing.albedo + ink * (drawing.ink_colour - drawing.albedo)
+    return np.asarray(np.rint(np.clip(colour, 0, 1) * 255).astype(np.uint8))
