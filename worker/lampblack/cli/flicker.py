@@ -1,0 +1,126 @@
+"""``lampblack flicker``: how steady the normals of an animation are."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import asdict
+from itertools import islice
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ..cache import digest
+from ..drawing import find_frames, load_picture, take_apart
+from ..errors import LampblackError, NothingDrawnError
+from ..normals.dataset.models import find_models
+from ..normals.evaluation.turntable import turntable
+from ..normals.predict import NormalPredictor
+from ..normals.temporal.flicker import FlickerMeter
+from ..normals.temporal.miniature import Miniature, miniature
+from ..normals.temporal.steady import REACH, Steadier
+from ..pipeline import Pipeline
+from .console import progress_bar
+from .options import open_cache
+
+Rows = dict[str, dict[str, float]]
+
+
+def flicker(
+    inputs: Annotated[
+        list[str] | None, typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
+    ] = None,
+    models: Annotated[
+        Path | None,
+        typer.Option("--models", metavar="DIR", help="Measure turntables of meshes instead."),
+    ] = None,
+    split: Annotated[str, typer.Option(help="Part of split.csv; 'all' for every mesh.")] = "val",
+    count: Annotated[int, typer.Option(min=1, max=1000, help="Meshes, evenly chosen.")] = 3,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """How much normals change from drawing to drawing, as predicted and steadied; degrees.
+
+    Of drawings: after the motion of the whole figure is removed (rigid), after the motion of
+    each place (local), and as departure from the drawings before and after (jitter). Of
+    turntables: along the points of the model, and the error against the truth.
+
+    Example: lampblack flicker walk/
+    """
+    if bool(inputs) == (models is not None):
+        raise LampblackError("Name drawings, or a folder of meshes with --models.")
+    if models is not None:
+        rows = _turntables(models, None if split == "all" else split, count)
+    else:
+        rows = _animation(inputs or [])
+    if as_json:
+        sys.stdout.write(msgspec.json.encode(rows).decode() + "\n")
+        return
+    table = Table("normals", *next(iter(rows.values())))
+    for name, row in rows.items():
+        table.add_row(name, *(f"{value:.2f}" for value in row.values()))
+    Console().print(table)
+
+
+def _animation(inputs: list[str]) -> Rows:
+    steadier = Steadier()
+    meters = {"predicted": FlickerMeter(steadier), "steadied": FlickerMeter(steadier)}
+    for here, before, after in _in_context(_drawn(inputs)):
+        meters["predicted"].add(here)
+        meters["steadied"].add(steadier.steadied(here, before, after))
+    return {name: asdict(meter.flicker) for name, meter in meters.items()}
+
+
+def _drawn(inputs: list[str]) -> Iterator[Miniature]:
+    """Each drawing where it begins to be shown; blank frames are passed over."""
+    last = ""
+    with Pipeline(open_cache()) as pipeline, progress_bar() as bar:
+        for frame in bar.track(find_frames(inputs), description="Predicting"):
+            picture = load_picture(frame.path)
+            name = digest(picture)
+            if name == last:
+                continue
+            last = name
+            try:
+                drawing = take_apart(picture)
+            except NothingDrawnError:
+                continue
+            yield miniature(
+                name, drawing.lines, drawing.mask, drawing.albedo, pipeline.normals(drawing)
+            )
+
+
+def _in_context(
+    drawn: Iterator[Miniature],
+) -> Iterator[tuple[Miniature, list[Miniature], list[Miniature]]]:
+    """Each with what precedes and follows it, nearest first."""
+    before: list[Miniature] = []
+    ahead = list(islice(drawn, REACH + 1))
+    while ahead:
+        here, *after = ahead
+        yield here, before, after
+        before = [here, *before][:REACH]
+        ahead = [*after, *islice(drawn, 1)]
+
+
+def _turntables(folder: Path, split: str | None, count: int) -> Rows:
+    """Means over the models."""
+    found = find_models(folder, split)
+    chosen = np.unique(np.linspace(0, len(found) - 1, min(count, len(found))).round().astype(int))
+    predictor = NormalPredictor()
+    with progress_bar() as bar:
+        tables = [
+            turntable(found[index], predictor)
+            for index in bar.track(chosen.tolist(), description="Turning")
+        ]
+    return {
+        name: {
+            column: float(np.mean([asdict(table[name])[column] for table in tables]))
+            for column in asdict(tables[0][name])
+        }
+        for name in tables[0]
+    }

@@ -1,0 +1,162 @@
+"""Flicker with known truth: models turned step by step, drawn, predicted and steadied."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation
+from ..dataset.linework import Hand, draw_lines
+from ..dataset.models import Model, load_model
+from ..predict import NormalPredictor
+from ..temporal.miniature import miniature
+from ..temporal.steady import REACH, Steadier
+
+STEP_DEGREES = 5.0
+_ELEVATION = 10.0
+_OCCLUDED_PX = 3.0
+
+Normals = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Wobble:
+    """Means over a turntable, in degrees.
+
+    Attributes:
+        error: between the normals and the truth.
+        change: along the points of the model, from view to view, after the model's own turn is
+            removed: 0 for the truth, but for its sampling.
+        jitter: departure from the mean of the views before and after, likewise.
+    """
+
+    error: float
+    change: float
+    jitter: float
+
+
+@dataclass(frozen=True)
+class View:
+    """One view; ``to_pixels`` (3, 3) and ``shift`` (3,) take the model's points to pixels,
+    x right, y up from the lower left corner, z to the viewer."""
+
+    rotation: NDArray[np.float32]
+    to_pixels: NDArray[np.float32]
+    shift: NDArray[np.float32]
+    seen: GBuffer
+    lines: NDArray[np.float32]
+
+
+def turntable(
+    path: Path, predictor: NormalPredictor, *, views: int = 12, figure_px: int = 448, seed: int = 0
+) -> dict[str, Wobble]:
+    """Measure the truth, the predictions and the steadied predictions of one model, which one
+    hand draws anew at each of ``views`` steps of five degrees, its front in the middle."""
+    turned = _views(load_model(path), views, figure_px, seed)
+    predicted = [predictor.predict(view.lines, view.seen.mask) for view in turned]
+    rows = {
+        "truth": [view.seen.normals for view in turned],
+        "predicted": predicted,
+        "steadied": _steadied(turned, predicted),
+    }
+    return {name: _measure(turned, normals) for name, normals in rows.items()}
+
+
+def _views(model: Model, count: int, figure_px: int, seed: int) -> list[View]:
+    rotations = [
+        view_rotation(STEP_DEGREES * (index - (count - 1) / 2), _ELEVATION)
+        for index in range(count)
+    ]
+    # One scale for all views: the figure must not breathe as it turns.
+    spans = [np.ptp(model.vertices @ r.T, axis=0)[:2].max() for r in rotations]
+    hand = Hand.random(np.random.default_rng(seed), figure_px)
+    turned = []
+    for index, (rotation, span) in enumerate(zip(rotations, spans, strict=True)):
+        placed = place(model, rotation, round(figure_px * float(span / max(spans))))
+        upright = model.vertices @ rotation.T
+        scale = np.ptp(placed.vertices[:, 1]) / np.ptp(upright[:, 1])
+        seen = trace_placed(placed)
+        turned.append(
+            View(
+                rotation=rotation,
+                to_pixels=scale * rotation,
+                shift=placed.vertices[0] - scale * upright[0],
+                seen=seen,
+                lines=draw_lines(seen, hand, np.random.default_rng([seed, index])),
+            )
+        )
+    return turned
+
+
+def _steadied(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
+    steadier = Steadier()
+    small = [
+        miniature(str(index), view.lines, view.seen.mask, np.ones_like(view.seen.normals), normals)
+        for index, (view, normals) in enumerate(zip(views, predicted, strict=True))
+    ]
+    return [
+        steadier.steady(
+            normals,
+            views[i].seen.mask,
+            small[i],
+            small[max(0, i - REACH) : i][::-1],
+            small[i + 1 : i + 1 + REACH],
+        )
+        for i, normals in enumerate(predicted)
+    ]
+
+
+def _measure(views: Sequence[View], normals: Sequence[Normals]) -> Wobble:
+    error, change, jitter = [], [], []
+    for i, view in enumerate(views):
+        mask = view.seen.mask
+        error.append(_angle(normals[i][mask], view.seen.normals[mask]))
+        around = [
+            (_followed(view, views[k]), normals[k], views[k].rotation)
+            for k in (i - 1, i + 1)
+            if 0 <= k < len(views)
+        ]
+        carried = []
+        for index, other, rotation in around:
+            found = np.full(normals[i].shape, np.nan, np.float32)
+            met = index >= 0
+            found[met] = other.reshape(-1, 3)[index[met]] @ rotation @ view.rotation.T
+            carried.append(found)
+        if i + 1 < len(views):
+            met = np.isfinite(carried[-1][..., 0])
+            change.append(_angle(normals[i][met], carried[-1][met]))
+        if len(carried) == 2:
+            mean = carried[0] + carried[1]
+            met = np.isfinite(mean[..., 0])
+            jitter.append(_angle(normals[i][met], mean[met]))
+    return Wobble(*(float(np.mean(found)) for found in (error, change, jitter)))
+
+
+def _followed(view: View, other: View) -> NDArray[np.int64]:
+    """(H, W): flat index of the pixel of ``other`` that shows the same point; -1 for none."""
+    rows, columns = np.nonzero(view.seen.mask)
+    height = view.seen.mask.shape[0]
+    points = np.stack([columns + 0.5, height - (rows + 0.5), view.seen.depth[rows, columns]], 1)
+    # The matrices are rotations with a scale, so that inverse is transpose over its square.
+    square = float((view.to_pixels[0] ** 2).sum())
+    there = (points - view.shift) @ view.to_pixels / square @ other.to_pixels.T + other.shift
+    size = other.seen.mask.shape
+    row = np.floor(size[0] - there[:, 1]).astype(np.int64)
+    column = np.floor(there[:, 0]).astype(np.int64)
+    on_canvas = (row >= 0) & (row < size[0]) & (column >= 0) & (column < size[1])
+    row, column = np.clip(row, 0, size[0] - 1), np.clip(column, 0, size[1] - 1)
+    near = np.abs(other.seen.depth[row, column] - there[:, 2]) < _OCCLUDED_PX
+    shown = on_canvas & near & other.seen.mask[row, column]
+    index = np.full(view.seen.mask.shape, -1, np.int64)
+    index[rows[shown], columns[shown]] = row[shown] * size[1] + column[shown]
+    return index
+
+
+def _angle(a: Normals, b: Normals) -> float:
+    length = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    cosine = np.einsum("nc,nc->n", a, b) / np.maximum(length, 1e-6)
+    return float(np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean())

@@ -1,0 +1,1 @@
+"""Normals that hold still from drawing to drawing."""

@@ -1,0 +1,91 @@
+"""Flicker, measured: by how much normals change from drawing to drawing.
+
+Not all change is flicker: a figure moves. So the change is told after the figure's rigid motion
+is removed; after each place's own motion is removed, where the drawings can be laid onto each
+other; and as the departure from the mean of the drawings before and after, which is nothing for
+whatever changes evenly.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, replace
+from math import nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .miniature import Miniature
+from .registration import Registration, rigid_registration
+from .steady import Steadier, carried
+from .window import Planes
+
+
+@dataclass(frozen=True)
+class Flicker:
+    """Means over pairs, or triples, of consecutive drawings, in degrees; nan where there are none.
+
+    Attributes:
+        rigid: change that is left after the motion of the whole figure.
+        motion: what of that the motion of its parts makes: the same, had every place kept its
+            normal as it moved. No steadiness comes below it.
+        local: change that is left after each place's own motion.
+        jitter: departure from the mean of the neighbours, likewise.
+    """
+
+    rigid: float
+    motion: float
+    local: float
+    jitter: float
+
+
+class FlickerMeter:
+    """Takes distinct drawings in order, and holds the last two.
+
+    Args:
+        steadier: asked for registrations only; meters may share one.
+    """
+
+    def __init__(self, steadier: Steadier) -> None:
+        self._steadier = steadier
+        self._last: deque[Miniature] = deque(maxlen=2)
+        self._rigid: list[float] = []
+        self._motion: list[float] = []
+        self._local: list[float] = []
+        self._jitter: list[float] = []
+
+    def add(self, later: Miniature) -> None:
+        """The next drawing, with its normals."""
+        if self._last:
+            here = self._last[-1]
+            ahead = self._steadier.registration(here, later)
+            whole = rigid_registration(here, later)
+            self._rigid.append(_change(here, later, whole))
+            kept, _ = carried(here, self._steadier.registration(later, here).fine())
+            self._motion.append(_change(here, replace(later, vectors=kept), whole))
+            self._local.append(_change(here, later, ahead))
+            if len(self._last) == 2:
+                earlier = self._last[0]
+                past, faith = carried(earlier, self._steadier.registration(here, earlier).fine())
+                future, trust = carried(later, ahead.fine())
+                self._jitter.append(_mean_angle(here, past + future, faith * trust))
+        self._last.append(later)
+
+    @property
+    def flicker(self) -> Flicker:
+        """Of what was added so far."""
+        found = self._rigid, self._motion, self._local, self._jitter
+        return Flicker(*(float(np.mean(values)) if values else nan for values in found))
+
+
+def _change(here: Miniature, other: Miniature, seen: Registration) -> float:
+    return _mean_angle(here, *carried(other, seen.fine()))
+
+
+def _mean_angle(here: Miniature, vectors: Planes, weight: NDArray[np.float32]) -> float:
+    """Degrees between the drawing's normals and ``vectors``, over the figure."""
+    length = np.linalg.norm(here.vectors, axis=0) * np.linalg.norm(vectors, axis=0)
+    cosine = (here.vectors * vectors).sum(axis=0) / np.maximum(length, 1e-6)
+    within = weight * (here.inside > 0.5)
+    angles = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+    return float((angles * within).sum() / max(float(within.sum()), 1e-6))

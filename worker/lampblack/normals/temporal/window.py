@@ -1,0 +1,78 @@
+"""The box around a figure, seen through a grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+FINE_PX = 512
+"""Longest side of the grid on which normals are compared; lines are, at half of it."""
+_MARGIN = 0.06
+
+Planes = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Window:
+    """A box of a canvas.
+
+    Attributes:
+        top, left: canvas pixels; the box may reach past the canvas.
+        size: (rows, columns), canvas pixels.
+        coarse: (rows, columns) of the grid; the fine grid has twice as many.
+    """
+
+    top: int
+    left: int
+    size: tuple[int, int]
+    coarse: tuple[int, int]
+
+    @property
+    def fine(self) -> tuple[int, int]:
+        """(rows, columns) of the fine grid."""
+        return 2 * self.coarse[0], 2 * self.coarse[1]
+
+    def see(self, image: Planes, shape: tuple[int, int]) -> Planes:
+        """(H, W, C) canvas -> (C, *shape) grid, averaged; 0 beyond the canvas."""
+        cut = np.zeros((*self.size, image.shape[2]), np.float32)
+        on_canvas, in_box = self._overlap(image.shape)
+        cut[in_box] = image[on_canvas]
+        seen = torch.nn.functional.interpolate(
+            torch.from_numpy(cut).permute(2, 0, 1)[None],
+            size=shape,
+            mode="bilinear",
+            antialias=True,
+            align_corners=False,
+        )
+        return np.ascontiguousarray(seen[0].numpy())
+
+    def lay(self, planes: Planes, shape: tuple[int, ...]) -> tuple[Planes, tuple[slice, slice]]:
+        """(C, rows, columns) grid -> (h, w, C), bilinear, and its place on a canvas of
+        ``shape``."""
+        whole = torch.nn.functional.interpolate(
+            torch.from_numpy(planes)[None], size=self.size, mode="bilinear", align_corners=False
+        )
+        on_canvas, in_box = self._overlap(shape)
+        return whole[0].permute(1, 2, 0).numpy()[in_box], on_canvas
+
+    def _overlap(self, shape: tuple[int, ...]) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+        rows = slice(max(self.top, 0), min(self.top + self.size[0], shape[0]))
+        columns = slice(max(self.left, 0), min(self.left + self.size[1], shape[1]))
+        return (rows, columns), (
+            slice(rows.start - self.top, rows.stop - self.top),
+            slice(columns.start - self.left, columns.stop - self.left),
+        )
+
+
+def window_around(mask: NDArray[np.bool_]) -> Window:
+    """The window of the figure in a (H, W) mask that is not empty, with a margin."""
+    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+    height, width = int(np.ptp(rows)) + 1, int(np.ptp(columns)) + 1
+    margin = round(_MARGIN * max(height, width)) + 4
+    size = height + 2 * margin, width + 2 * margin
+    scale = min(1.0, FINE_PX / max(size))
+    coarse = max(8, round(size[0] * scale / 2)), max(8, round(size[1] * scale / 2))
+    return Window(int(rows[0]) - margin, int(columns[0]) - margin, size, coarse)
