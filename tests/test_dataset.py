@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
+from scipy import ndimage
 
+from conftest import Run
 from lampblack.errors import LampblackError
 from lampblack.normals.dataset.build import DatasetOptions, build_dataset, entries
 from lampblack.normals.dataset.deform import deformed
+from lampblack.normals.dataset.freestyle import Stroke, draw_freestyle
 from lampblack.normals.dataset.gbuffer import place, trace, trace_placed, view_rotation
 from lampblack.normals.dataset.models import Model
 from lampblack.normals.dataset.smooth import smoothed
@@ -122,3 +127,32 @@ def test_a_long_figure_grows_to_the_area_of_a_square() -> None:
     rows, columns = place(pole, view_rotation(0, 0), 100, equal_area=True).size
     assert (rows - 16) * (columns - 16) == pytest.approx(100 * 100, rel=0.05)
     assert trace_placed(place(pole, view_rotation(0, 0), 100)).mask.shape == (116, 66)
+
+
+@pytest.mark.cycles
+def test_freestyle_draws_the_silhouette_where_it_is() -> None:
+    placed = place(sphere_model(4), view_rotation(20, 10), 150)
+    (ink,) = draw_freestyle([(placed, Stroke(width=4.0, taper=False))])
+    assert ink is not None
+    mask = trace_placed(placed).mask
+    rim = mask & (ndimage.distance_transform_edt(mask) < 2)
+    assert ink[rim].mean() > 0.6
+    assert ink[mask & (ndimage.distance_transform_edt(mask) > 5)].max() < 0.1
+
+
+def test_the_command_builds_a_described_data_set(models: Path, tmp_path: Path, run: Run) -> None:
+    folder = tmp_path / "data"
+    command = ("dataset", "build", "--models", models, "-o", folder, "--views", 1)
+    command += ("--resolution", 96, "--freestyle", 0, "--workers", 1)
+    for _ in range(2):
+        done = run(*command)
+        assert done.code == 0
+        assert "2 entries" in done.err + done.out
+    card = json.loads((folder / "card.json").read_text())
+    assert sum(card["entries"].values()) == 2
+    with Image.open(folder / "sheet.png") as sheet:
+        assert sheet.width > sheet.height
+    (tmp_path / "empty").mkdir()
+    failed = run("dataset", "build", "--models", tmp_path / "empty", "-o", folder)
+    assert failed.code != 0
+    assert "holds no models" in failed.err

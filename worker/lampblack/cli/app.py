@@ -10,9 +10,11 @@ import typer
 from .. import __version__
 from .bench import bench
 from .console import EXIT_INTERRUPTED, console, for_people
-from .dataset import dataset
+from .dataset import build
 from .doctor import doctor
 from .export import export
+from .flicker import flicker
+from .job import job
 from .learn import evaluate, train
 from .render import render
 from .serve import serve
@@ -43,6 +45,7 @@ def _interruptible(command: Callable[..., None]) -> Callable[..., None]:
 
 for command in (
     render,
+    job,
     serve,
     normals,
     mesh,
@@ -51,10 +54,13 @@ for command in (
     scene,
     train,
     evaluate,
+    flicker,
     bench,
     doctor,
 ):
     app.command()(_interruptible(command))
+dataset = typer.Typer(no_args_is_help=True, help="Drawings of models, with exact truth.")
+dataset.command()(_interruptible(build))
 app.add_typer(dataset, name="dataset")
 
 

@@ -15,15 +15,7 @@ from ..normals.dataset.sheet import dataset_sheet
 from ..normals.dataset.viewpoints import PAPER_VIEWPOINTS
 from .console import console, progress_bar
 
-dataset = typer.Typer(no_args_is_help=True, help="Drawings of models, with exact truth.")
 
-
-@dataset.callback()
-def _group() -> None:
-    """Drawings of models, with exact truth."""
-
-
-@dataset.command()
 def build(
     models: Annotated[Path, typer.Option("--models", metavar="DIR", help="Folder of meshes.")],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="The data set.")],
