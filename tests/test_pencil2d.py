@@ -229,6 +229,65 @@ def test_glossy_colour_shows_a_highlight(window: Pencil2D) -> None:
     assert np.abs(gained[belly]).mean() < 0.01
 
 
+def ink_at(canvas: Canvas, x: float, y: float) -> bool:
+    """Whether the screen is dark there."""
+    return float(luminance(canvas.crop(x - 2, y - 2, 4, 4)).min()) < 0.2
+
+
+def test_light_follows_strokes_undo_and_frames(window: Pencil2D) -> None:
+    canvas = Canvas(window)
+    light_up(window)
+    first = canvas.crop(0, 0, *SIZE)
+    window.click("pencilButton")
+    for _ in window.drag([canvas.screen(100 + 4 * i, 680) for i in range(30)]):
+        pass
+    light_up(window)
+    keep(window, "stroke")
+    assert window.value("lampblack.overlay", "showsPicture")
+    assert ink_at(canvas, 160, 680), "the new line is in the lit picture"
+    window.trigger("actionUndo")
+    wait_until(lambda: not ink_at(canvas, 160, 680), "the line's undoing")
+    settled(window)
+    assert np.abs(luminance(canvas.crop(0, 0, *SIZE)) - luminance(first)).mean() < 0.01
+    for _ in range(6):
+        window.trigger("actionNext_Frame")
+    settled(window)
+    keep(window, "frame 7")
+    assert np.abs(luminance(canvas.crop(0, 0, *SIZE)) - luminance(first)).mean() > 0.02
+
+
+def test_edits_of_the_light_are_undone(window: Pencil2D) -> None:
+    canvas = Canvas(window)
+    light_up(window)
+    before = window.value("lampblack", "lightPlaces")
+    drag_light(window, canvas, (500, 500))
+    assert window.value("lampblack", "lightPlaces") != before
+    window.key("ctrl+z")
+    wait_until(lambda: window.value("lampblack", "lightPlaces") == before, "the light back", 10)
+    window.key("ctrl+shift+z")
+    wait_until(lambda: window.value("lampblack", "lightPlaces") != before, "the drag again", 10)
+
+
+def test_surfaces_of_all_frames_play_lit(window: Pencil2D) -> None:
+    light_up(window)
+    window.trigger("lampblack.panel.generate")
+    wait_until(lambda: window.value("lampblack.panel.generate.progress", "visible"), "progress")
+    keep(window, "generating")
+    wait_until(
+        lambda: not window.value("lampblack.panel.generate.progress", "visible"), "surfaces", 240
+    )
+    # Seen once, a frame's picture is kept.
+    for _ in range(15):
+        settled(window)
+        window.trigger("actionNext_Frame")
+    settled(window)
+    window.trigger("actionPlay")
+    seen = [window.value("lampblack.overlay", "showsPicture") for _ in range(40)]
+    keep(window, "playing")
+    window.trigger("actionPlay")
+    assert sum(seen) >= 36, f"lit in {sum(seen)} of {len(seen)} looks while playing"
+
+
 VIEWS = {
     "zoom 33": ("actionZoom33",),
     "zoom 300": ("actionZoom300",),
