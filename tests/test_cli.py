@@ -97,6 +97,7 @@ def test_the_number_of_a_pattern_may_stand_anywhere(
 def test_help_has_an_example_for_every_command(run: Run) -> None:
     names = [
         "render",
+        "job",
         "serve",
         "normals",
         "mesh",

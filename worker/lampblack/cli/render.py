@@ -76,6 +76,22 @@ def render(
     again: Annotated[
         bool, typer.Option("--again", help="Make also frames that are there and up to date.")
     ] = False,
+    allow_blank: Annotated[
+        bool, typer.Option("--allow-blank", help="Exit 0 though blank frames stayed unlit.")
+    ] = False,
+    cluster: Annotated[
+        str | None,
+        typer.Option("--cluster", metavar="ADDRESS", help="Of a dask scheduler: tls://host:8786."),
+    ] = None,
+    tls_ca: Annotated[
+        Path | None, typer.Option("--tls-ca", help="The cluster's authority, a PEM file.")
+    ] = None,
+    tls_cert: Annotated[
+        Path | None, typer.Option("--tls-cert", help="Our certificate, a PEM file.")
+    ] = None,
+    tls_key: Annotated[
+        Path | None, typer.Option("--tls-key", help="Its private key, a PEM file.")
+    ] = None,
 ) -> None:
     """Light drawings, or the frames of a Pencil2D project.
 
@@ -105,7 +121,7 @@ def render(
     opened = open_order(order)
     if sheet is not None:
         _check_sheet(sheet, opened, inputs)
-    with Pipeline(open_cache(), opened.options) as pipeline, progress_bar() as bar:
+    with progress_bar() as bar:
         task = bar.add_task("Lighting", total=len(opened.frames))
 
         def told(frame: ShotFrame, error: LampblackError | None) -> None:
@@ -113,10 +129,21 @@ def render(
             if error is not None:
                 print_error(error, f"{frame.name}: ")
 
-        outcome = light_frames(opened, pipeline, listener=told)
+        if cluster is not None:
+            from ..farm.cluster import Certificates, light_on_cluster
+
+            files = (None if file is None else str(file) for file in (tls_ca, tls_cert, tls_key))
+            outcome = light_on_cluster(order, opened, cluster, Certificates(*files), told)
+        else:
+            with Pipeline(open_cache(), opened.options) as pipeline:
+                outcome = light_frames(opened, pipeline, listener=told)
     if sheet is not None:
         _write_sheet(sheet, opened, outcome)
     _summarise(opened, outcome)
+    if outcome.failed:
+        raise typer.Exit(EXIT_FAILED)
+    if outcome.unlit and not allow_blank:
+        raise typer.Exit(EXIT_UNLIT)
 
 
 def _check_sheet(sheet: Path, opened: OpenOrder, inputs: list[str]) -> None:
@@ -161,6 +188,3 @@ def _summarise(opened: OpenOrder, outcome: Outcome) -> None:
     if outcome.failed:
         names = ", ".join(frame.name for frame, _ in outcome.failed)
         console.print(f"Failed: {names}", markup=False, style="bold red")
-        raise typer.Exit(EXIT_FAILED)
-    if outcome.unlit:
-        raise typer.Exit(EXIT_UNLIT)

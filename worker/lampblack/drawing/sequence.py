@@ -89,6 +89,17 @@ def parse_frames(text: str) -> list[int]:
     return sorted(numbers)
 
 
+def frame_list(numbers: Sequence[int]) -> str:
+    """Ascending numbers as ``parse_frames`` reads them, runs as ranges: ``1-4,9``."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    return ",".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs)
+
+
 def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[Numbered]:
     """The frames whose number is in ``numbers``, in their own order.
 

@@ -89,11 +89,9 @@ class _Job:
     outcome: Outcome = field(default_factory=Outcome)
     full: OutputError | None = None
     canvas: Canvas | None = None
-    single: bool = field(init=False)
     made_by: str = field(init=False)
 
     def __post_init__(self) -> None:
-        self.single = len(self.order.frames) == 1
         self.made_by = digest(__version__, self.order.options, _weights())
 
 
@@ -132,7 +130,7 @@ class _Held:
         try:
             lit = self._render(frame, placed)
         except NothingDrawnError as error:
-            if self.job.single:
+            if self.job.order.single:
                 raise
             warnings.warn(
                 f"{frame.name}: {error.what} Passed through unlit.", LampblackWarning, stacklevel=2

@@ -52,6 +52,15 @@ class Order(msgspec.Struct, frozen=True, kw_only=True):
     camera: str | None = None
     again: bool = False
 
+    def absolute(self) -> Order:
+        """The same order from any folder."""
+        named = {name: getattr(self, name) for name in ("output", "scene", "mask", "ink")}
+        found = {
+            name: str(Path(path).absolute()) for name, path in named.items() if path is not None
+        }
+        inputs = tuple(str(Path(path).absolute()) for path in self.inputs)
+        return msgspec.structs.replace(self, inputs=inputs, **found)
+
     def arguments(self) -> list[str]:
         """The same order on the command line, after ``lampblack render``."""
         options: dict[str, object] = {
@@ -71,21 +80,26 @@ class Order(msgspec.Struct, frozen=True, kw_only=True):
 
 @dataclass(frozen=True)
 class OpenShot:
-    """What an order is made from: the frames it names and how they are lit; the files read."""
+    """What an order is made from.
+
+    Attributes:
+        frames: those that it names, of the shot's.
+        staging: how they are lit.
+        sources: the files that are read.
+        single: the shot is a single drawing, not one of many.
+    """
 
     shot: Shot
     frames: list[ShotFrame]
     staging: Staging
     sources: list[Path]
+    single: bool
 
 
 @dataclass(frozen=True)
-class OpenOrder:
+class OpenOrder(OpenShot):
     """An order whose files were found and found sound."""
 
-    shot: Shot
-    frames: list[ShotFrame]
-    staging: Staging
     targets: Targets
     options: PipelineOptions
     again: bool
@@ -103,7 +117,7 @@ def open_order(order: Order) -> OpenOrder:
     options = PipelineOptions(solver=order.solver)
     if order.grids is not None:
         options = PipelineOptions(order.grids, order.solver)
-    return OpenOrder(opened.shot, opened.frames, opened.staging, targets, options, order.again)
+    return OpenOrder(**vars(opened), targets=targets, options=options, again=order.again)
 
 
 def open_shot(order: Order) -> OpenShot:
@@ -119,8 +133,10 @@ def open_shot(order: Order) -> OpenShot:
         shot = _project_shot(order, read)
         sources = [Path(order.inputs[0])]
         frames = _chosen(shot.frames, order.frames)
+        single = False  # a frame of a project may well be blank
     else:
         found = find_frames(order.inputs)
+        single = len(found) == 1
         if order.frames is not None:
             found = select_frames(found, parse_frames(order.frames))
         mask = None if order.mask is None else load_picture(order.mask)
@@ -129,7 +145,7 @@ def open_shot(order: Order) -> OpenShot:
         sources = [frame.path for frame in found]
         frames = list(shot.frames)
     staging = Staging(read, order.lights, order.floor, order.quality)
-    return OpenShot(shot, frames, staging, sources)
+    return OpenShot(shot, frames, staging, sources, single)
 
 
 def sidecar_of(project: str | Path) -> Path:

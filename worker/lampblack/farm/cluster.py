@@ -1,0 +1,167 @@
+"""Frames spread over a dask cluster: warm workers, and the work of lost ones done by others.
+
+A scheduler runs whatever it is sent, so whoever reaches it owns its machines: between machines
+it is only talked to over TLS, with certificates on both sides.
+"""
+
+from __future__ import annotations
+
+import functools
+import ipaddress
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import urlsplit
+
+import msgspec
+
+from ..cache import ArrayCache, user_cache_folder
+from ..errors import LampblackError, OutputError
+from ..finals.light import Listener, Outcome, light_frames
+from ..finals.order import OpenOrder, Order, open_order
+from ..finals.shot import ShotFrame, by_drawing
+from ..pipeline import Pipeline
+
+CONNECT_SECONDS = 30
+
+
+@dataclass(frozen=True)
+class Certificates:
+    """Files of TLS; all None leaves it to dask's own configuration."""
+
+    ca: str | None = None
+    certificate: str | None = None
+    key: str | None = None
+
+
+def light_on_cluster(
+    order: Order,
+    opened: OpenOrder,
+    address: str,
+    certificates: Certificates,
+    listener: Listener = lambda frame, error: None,
+) -> Outcome:
+    """Light the frames of ``order`` on the cluster whose scheduler is at ``address``.
+
+    The workers see the same files under the same names. Frames of one drawing stay together.
+
+    Raises:
+        LampblackError: no cluster there, not over TLS, or dask is not installed.
+    """
+    try:
+        from distributed import Client, Security, as_completed
+    except ImportError as error:
+        raise LampblackError(
+            "Clusters need a part of Lampblack that is not installed.",
+            "Install it: pip install 'lampblack[cluster]'.",
+        ) from error
+    check_address(address)
+    order_json = msgspec.json.encode(order.absolute())
+    outcome = Outcome()
+    try:
+        client = Client(  # type: ignore[no-untyped-call]
+            address, security=_security(Security, certificates), timeout=CONNECT_SECONDS
+        )
+    except (OSError, ValueError, TypeError) as error:
+        raise LampblackError(
+            f"There is no cluster at {address}.",
+            "Check the address and the certificates, and that its scheduler runs.",
+            str(error),
+        ) from error
+    with client:
+        groups = by_drawing(opened.frames)
+        futures: dict[Any, list[ShotFrame]] = {
+            client.submit(light_group, order_json, [f.name for f in group], pure=False): group
+            for group in groups
+        }
+        for future in as_completed(futures):  # type: ignore[no-untyped-call]
+            _take_in(outcome, futures[future], future, listener)
+    return outcome
+
+
+def check_address(address: str) -> None:
+    """Refuse a scheduler that anyone on the network could impersonate.
+
+    Raises:
+        LampblackError: neither TLS nor this machine.
+    """
+    parts = urlsplit(address)
+    try:
+        loopback = ipaddress.ip_address(parts.hostname or "").is_loopback
+    except ValueError:
+        loopback = parts.hostname == "localhost"
+    if parts.scheme != "tls" and not (parts.scheme == "tcp" and loopback):
+        raise LampblackError(
+            f"{address} is not reached over TLS.",
+            "Name it like tls://scheduler:8786; a cluster without TLS runs anyone's code.",
+        )
+
+
+def light_group(order_json: bytes, names: Sequence[str]) -> list[tuple[str, str, list[str]]]:
+    """Runs on a worker: light the named frames; (name, what became of it, error's words) each."""
+    with _ONE_AT_A_TIME:
+        opened, pipeline = _opened(order_json)
+        wanted = [frame for frame in opened.frames if frame.name in set(names)]
+        outcome = light_frames(opened, pipeline, wanted)
+    failed = {frame.name: error for frame, error in outcome.failed}
+    kept = {frame.name for frame in outcome.kept}
+    unlit = {frame.name for frame in outcome.unlit}
+    told = []
+    for frame in wanted:
+        error = failed.get(frame.name)
+        if error is not None:
+            kind = "full" if isinstance(error, OutputError) else "failed"
+            told.append((frame.name, kind, [error.what, error.remedy, error.details]))
+        else:
+            became = "kept" if frame.name in kept else "unlit" if frame.name in unlit else "done"
+            told.append((frame.name, became, []))
+    return told
+
+
+_ONE_AT_A_TIME = threading.Lock()
+
+
+@functools.lru_cache(maxsize=1)
+def _opened(order_json: bytes) -> tuple[OpenOrder, Pipeline]:
+    """Kept between tasks; the renderer ends with the worker."""
+    opened = open_order(msgspec.json.decode(order_json, type=Order))
+    cache = ArrayCache(user_cache_folder() / "surfaces")
+    return opened, Pipeline(cache, opened.options)
+
+
+def _take_in(outcome: Outcome, group: list[ShotFrame], future: Any, listener: Listener) -> None:
+    by_name = {frame.name: frame for frame in group}
+    try:
+        told = future.result()
+    except Exception as error:  # whatever went wrong over there
+        lost = LampblackError(
+            "The cluster could not light this frame.",
+            "Run it again; what was finished is kept.",
+            repr(error),
+        )
+        told = [(frame.name, "failed", [lost.what, lost.remedy, lost.details]) for frame in group]
+    for name, became, words in told:
+        frame = by_name[name]
+        if words:
+            kind = OutputError if became == "full" else LampblackError
+            failure = kind(*words)
+            outcome.failed.append((frame, failure))
+            listener(frame, failure)
+            continue
+        outcome.done.append(frame)
+        if became == "kept":
+            outcome.kept.append(frame)
+        elif became == "unlit":
+            outcome.unlit.append(frame)
+        listener(frame, None)
+
+
+def _security(kind: Any, certificates: Certificates) -> Any:
+    named = {
+        "tls_ca_file": certificates.ca,
+        "tls_client_cert": certificates.certificate,
+        "tls_client_key": certificates.key,
+    }
+    given = {name: value for name, value in named.items() if value is not None}
+    return kind(require_encryption=True, **given) if given else kind()
