@@ -105,10 +105,8 @@ void DrawingWatch::touchLayers()
 
 void DrawingWatch::onReleased(QObject* where, const Gesture& gesture)
 {
-    if (where == mParts.canvas && !mToolActive)
-        touch();
-    else if (where == mParts.trackCells)
-        touch();
+    if ((where == mParts.canvas && !mToolActive) || where == mParts.trackCells)
+        mDebounce.start();
     else if (where == mParts.layerCells)
         onLayerCells(gesture);
 }

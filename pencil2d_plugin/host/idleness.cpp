@@ -30,7 +30,8 @@ bool Idleness::isIdle() const
 
 bool Idleness::eventFilter(QObject* watched, QEvent* event)
 {
-    if (mWork > 0)
+    // What we send ourselves is not the artist's; what comes from the window system is, even now.
+    if (mWork > 0 && !event->spontaneous())
         return false;
     switch (event->type())
     {

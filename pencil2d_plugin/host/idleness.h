@@ -30,7 +30,7 @@ public:
     /// No button or pen is down.
     bool areHandsOff() const;
 
-    /// While it lives, we drive the program ourselves: nobody is idle and no release is the artist's.
+    /// While it lives, we drive the program ourselves: isIdle() is false and what we click is not told.
     class Work
     {
     public:

@@ -3,6 +3,8 @@
 #include <QMenu>
 #include <QStatusBar>
 
+#include <algorithm>
+
 namespace lampblack
 {
 
@@ -12,6 +14,11 @@ namespace
 constexpr int SurveyMs = 50;
 constexpr int MaxLayerAttempts = 20; ///< the list is not laid out at once
 const QSize DefaultCanvas(800, 600);
+
+bool isStill(const CameraKeys& keys)
+{
+    return std::all_of(keys.begin(), keys.end(), [](const QTransform& view) { return view.isIdentity(); });
+}
 
 bool isSame(const Layer& a, const Layer& b)
 {
@@ -85,7 +92,7 @@ bool Pencil2DHost::can(Ability ability) const
 
 QString Pencil2DHost::whyNot(Ability ability) const
 {
-    const QString reason = lampblack::whyNot(mParts, ability);
+    QString reason = lampblack::whyNot(mParts, ability);
     if (!reason.isEmpty())
         return reason;
     if (ability == Ability::View && !mView.read())
@@ -301,7 +308,12 @@ void Pencil2DHost::surveyCamera(int row)
     const Idleness::Work work(&mIdleness);
     const QSignalBlocker still(&mTransport);
     const auto keys = readCamera(mParts, mRows, &mView, row, [this] { return mTransport.currentFrame(); });
+    const bool moved = !isStill(mCamera) || (keys && !isStill(*keys));
+    const bool changed = moved && mCamera != keys.value_or(CameraKeys());
     mCamera = keys.value_or(CameraKeys());
+    // Frames taken before went through the camera as it was.
+    if (changed)
+        Q_EMIT layersChanged();
 }
 
 Host* createHost(QObject* parent)

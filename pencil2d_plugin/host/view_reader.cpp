@@ -5,6 +5,7 @@
 #include <QStatusBar>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -16,8 +17,8 @@ namespace lampblack
 namespace
 {
 
-constexpr int MatrixBytes = sizeof(QTransform);
-constexpr int MatrixCount = 5;
+constexpr std::ptrdiff_t MatrixBytes = sizeof(QTransform);
+constexpr std::ptrdiff_t MatrixCount = 5;
 constexpr int SearchBytes = 1024;
 constexpr double Tolerance = 1e-6;
 
@@ -153,7 +154,7 @@ std::optional<ViewMatrices> ViewReader::read()
         return std::nullopt;
     // Readable since it was found there, and the object lives.
     const auto* start = reinterpret_cast<const char*>(mParts.view.data()) + mOffset;
-    const auto matrices = matricesAt(QByteArray::fromRawData(start, MatrixCount * MatrixBytes), 0);
+    auto matrices = matricesAt(QByteArray::fromRawData(start, int(MatrixCount * MatrixBytes)), 0);
     if (!matrices || !agree(*matrices, mParts.canvas->size()))
         return std::nullopt;
     return matrices;

@@ -386,7 +386,7 @@ private Q_SLOTS:
         QCOMPARE(mHost->projectPath(), path);
         // Pencil2D calls a project that follows an edited one modified, of itself.
         const bool modified = mHost->isModified();
-        QTRY_COMPARE(layers.size(), 1);
+        QTRY_COMPARE(layers.size(), 2); // the list, then the camera
         QTest::qWait(100);
         QCOMPARE(mHost->currentFrame(), 1);
         QCOMPARE(mRows.currentRow(), 1);
