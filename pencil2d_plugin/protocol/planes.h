@@ -56,7 +56,7 @@ QImage toImage(const PlaneView& view);
 QByteArray rowsDigest(const PlaneView& view);
 
 /// The name of a frame's content (SPEC 3.3): BLAKE2b-160 of its planes in the order pixels, mask, ink, as
-/// 40 lower-case hexadecimal digits. Takes about 1 ms a megabyte: not for the UI thread.
+/// 40 lower-case hexadecimal digits. Takes 1 to 3 ms a megabyte: not for the UI thread.
 QByteArray frameDigest(const QVector<PlaneView>& planes);
 
 /// The digest of a drawing without mask and ink; `pixels` is Format_RGBA8888.

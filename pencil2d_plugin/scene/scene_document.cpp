@@ -10,7 +10,7 @@ namespace
 {
 
 constexpr int UndoSteps = 500;
-constexpr QLatin1String LayersField("pencil2d_layers");
+const QString LayersField = QStringLiteral("pencil2d_layers");
 
 QMap<QString, QString> rolesOf(const Scene& scene)
 {

@@ -15,53 +15,29 @@ namespace
 {
 
 /// What stands in a header that a parser may trip over.
-const QVector<QByteArray>& oddTexts()
+const QList<QByteArray>& oddTexts()
 {
-    static const QVector<QByteArray> texts = {"null",
-                                              "true",
-                                              "\"\"",
-                                              "\"1\"",
-                                              "-0",
-                                              "0.0",
-                                              "1e0",
-                                              "1E+2",
-                                              "-1",
-                                              "1.5",
-                                              ".5",
-                                              "1.",
-                                              "01",
-                                              "1e400",
-                                              "1e-400",
-                                              "9007199254740991",
-                                              "9007199254740992",
-                                              "-9007199254740992",
-                                              "99999999999999999999",
-                                              "NaN",
-                                              "[]",
-                                              "{}",
-                                              "[[]]",
-                                              "\"\\ud800\"",
-                                              "\"\\ud83d\\ude00\"",
-                                              "\"\\u0000\"",
-                                              "\"\\x\"",
-                                              "\"\xff\"",
-                                              "\"\xed\xa0\x80\"",
-                                              "{",
-                                              "}",
-                                              "]",
-                                              "[",
-                                              ",",
-                                              ":",
-                                              "\"",
-                                              "\\",
-                                              "\t",
-                                              "\x01",
-                                              "/**/",
-                                              "\xef\xbb\xbf",
-                                              "\"\xf0\x9f\x98\x80\"",
-                                              "\"type\":\"bye\"",
-                                              "\"planes\":[],"};
+    static const QList<QByteArray> texts =
+        QByteArray(R"(null true "" "1" -0 0.0 1e0 1E+2 -1 1.5 .5 1. 01 1e400 1e-400 9007199254740991
+9007199254740992 -9007199254740992 99999999999999999999 NaN [] {} [[]] "\ud800" "\ud83d\ude00" "\u0000"
+"\x" { } ] [ , : " \ /**/ "type":"bye" "planes":[],)")
+            .simplified()
+            .split(' ') +
+        QList<QByteArray>{"\t",          "\x01", "\"\xff\"", "\"\xed\xa0\x80\"", "\"\xf0\x9f\x98\x80\"",
+                          "\xef\xbb\xbf"};
     return texts;
+}
+
+/// Values of every type, and those at the edges of fields' ranges.
+const QJsonArray& oddValues()
+{
+    static const QByteArray text = R"([null, true, false, 0, 1, -1, 0.5, 2, 3, 4, 5, 255, 1000, 4096, 4097,
+65536, 65537, 999999, 1000000, 2147483647, 2147483648, 9007199254740991, 9007199254740992, 1e-7, 0.01, 1e5,
+100001, 1e300, "", "a8", "rgba8", "pixels", "mask", "low", "lit", "#ff00ff", "#ff00ff\n", "1-20x2,25",
+"9-1", "0-999999", "/a%04d.png", "\u0000", "\ud83d\ude00", [], {}, [1, 0, 0, 0, 1, 0], [1, 2, 3, 2, 4, 6],
+[{}], {"x": 1, "y": 1, "z": 1, "width": 1, "height": 1}])";
+    static const QJsonArray values = QJsonDocument::fromJson(text).array();
+    return values;
 }
 
 } // namespace
@@ -152,60 +128,12 @@ void Mutator::changeBytes(QByteArray& bytes)
 
 QJsonValue Mutator::oddValue()
 {
-    static const QVector<QJsonValue> odd = {
-        QJsonValue(),
-        true,
-        false,
-        0,
-        1,
-        -1,
-        0.5,
-        2,
-        3,
-        4,
-        5,
-        255,
-        1000,
-        4096,
-        4097,
-        65536,
-        65537,
-        999999,
-        1000000,
-        2147483647.0,
-        2147483648.0,
-        9007199254740991.0,
-        9007199254740992.0,
-        1e-7,
-        0.01,
-        1e5,
-        1e5 + 1,
-        1e300,
-        QString(),
-        QStringLiteral("a8"),
-        QStringLiteral("rgba8"),
-        QStringLiteral("pixels"),
-        QStringLiteral("mask"),
-        QStringLiteral("low"),
-        QStringLiteral("lit"),
-        QStringLiteral("#ff00ff"),
-        QStringLiteral("#ff00ff\n"),
-        QString(65, QLatin1Char('x')),
-        QString(501, QLatin1Char('x')),
-        QStringLiteral("1-20x2,25"),
-        QStringLiteral("0-999999"),
-        QStringLiteral("/a%04d.png"),
-        QString::fromUcs4(U"\U0001f600\U0001f600"),
-        QString(1, QChar(0)),
-        QJsonArray(),
-        QJsonObject(),
-        QJsonArray{1, 2, 3, 4, 5, 6},
-        QJsonArray{QJsonObject()},
-        QJsonObject{{QStringLiteral("x"), 1}, {QStringLiteral("y"), 1}, {QStringLiteral("z"), 1}}};
-    return odd[below(odd.size())];
+    // Longer than names and sentences may be, in characters of two UTF-16 units each.
+    const QString sentence = QStringLiteral("\U0001f600").repeated(chance(50) ? 65 : 501);
+    return chance(5) ? QJsonValue(sentence) : oddValues().at(below(oddValues().size()));
 }
 
-QJsonObject Mutator::changedObject(QJsonObject object, int depth)
+QJsonObject Mutator::changedObject(QJsonObject object)
 {
     QStringList keys = object.keys();
     if (chance(95))
@@ -224,16 +152,16 @@ QJsonObject Mutator::changedObject(QJsonObject object, int depth)
     }
     else
     {
-        object.insert(key, changedValue(object.value(key), depth + 1));
+        object.insert(key, changedValue(object.value(key)));
     }
     return object;
 }
 
-QJsonValue Mutator::changedValue(const QJsonValue& value, int depth)
+QJsonValue Mutator::changedValue(const QJsonValue& value)
 {
     if (value.isObject() && !chance(10))
     {
-        return changedObject(value.toObject(), depth);
+        return changedObject(value.toObject());
     }
     if (value.isArray() && !value.toArray().isEmpty() && !chance(10))
     {
@@ -249,7 +177,7 @@ QJsonValue Mutator::changedValue(const QJsonValue& value, int depth)
         }
         else
         {
-            array[at] = changedValue(array.at(at), depth + 1);
+            array[at] = changedValue(array.at(at));
         }
         return array;
     }
@@ -274,7 +202,7 @@ void Mutator::changeTree(Case& message)
     tree.remove(QStringLiteral("lampblack"));
     for (int times = chance(70) ? 1 : 2; times > 0; --times)
     {
-        tree = changedObject(tree, 1);
+        tree = changedObject(tree);
     }
     message.frames[0] = QJsonDocument(tree).toJson(QJsonDocument::Compact).replace(0, 1, headerBeginning());
     if (chance(50))

@@ -25,8 +25,8 @@ private:
     void changeTree(Case& message);
     void changePlanes(Case& message);
     void repairPlanes(Case& message);
-    QJsonValue changedValue(const QJsonValue& value, int depth);
-    QJsonObject changedObject(QJsonObject object, int depth);
+    QJsonValue changedValue(const QJsonValue& value);
+    QJsonObject changedObject(QJsonObject object);
     QJsonValue oddValue();
 
     QVector<Case> mSound;
