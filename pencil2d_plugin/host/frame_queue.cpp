@@ -93,7 +93,7 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
 
     Exported exported;
     {
-        QVector<int> hidden;
+        QVector<int> turned;
         const UpdatesOff unseen(layers.isEmpty()
                                     ? QVector<QWidget*>()
                                     : QVector<QWidget*>{mParts.canvas, mParts.layerCells, mParts.trackCells});
@@ -104,14 +104,14 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
             {
                 const bool drawn =
                     mLayers[row].kind != Layer::Kind::Camera && mLayers[row].kind != Layer::Kind::Sound;
-                if (drawn && eyes[row] && !layers.contains(mLayers[row].name))
-                    hidden.append(row);
+                if (drawn && eyes[row] != layers.contains(mLayers[row].name))
+                    turned.append(row);
             }
         }
-        for (const int row : qAsConst(hidden))
+        for (const int row : qAsConst(turned))
             mRows.clickEye(row);
         exported = mDialog.run(first, last, mCamera, folder);
-        for (const int row : qAsConst(hidden))
+        for (const int row : qAsConst(turned))
             mRows.clickEye(row);
     }
     mFrameMs = double(clock.elapsed()) / (last - first + 1);

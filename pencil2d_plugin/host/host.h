@@ -11,6 +11,7 @@
 #include <QAction>
 #include <QDockWidget>
 #include <QImage>
+#include <QMap>
 #include <QObject>
 #include <QTransform>
 #include <QVector>
@@ -44,6 +45,13 @@ struct FrameExport
     QTransform canvasToImage; ///< identity but under a moved camera
 };
 
+/// From `first` to `last`, both included.
+struct FrameRange
+{
+    int first = 1;
+    int last = 1;
+};
+
 class Host : public QObject
 {
     Q_OBJECT
@@ -55,6 +63,7 @@ public:
         Panel,   ///< a page in the tool options
         Frames,  ///< frames can be exported
         Layers,  ///< layers can be named, and left out of an export
+        Deliver, ///< a layer of ours can be put into the project
         View,    ///< canvasToWidget() is known
         Undo,    ///< keys of undo reach us first
         Project  ///< projectPath() and its signals
@@ -91,17 +100,29 @@ public:
     virtual int frameCount() const = 0;
     virtual double framesPerSecond() const = 0;
     virtual bool isPlaying() const = 0;
+    virtual FrameRange loopRange() const = 0; ///< all frames while no range is set
 
     // Layers, top first
     virtual QVector<Layer> layers() const = 0;
+    virtual void hideLayers(const QStringList& names) = 0;
+
+    /// Put a bitmap layer on top of all, in place of the topmost one of that name: the caller has made sure
+    /// that this one is ours. `pictures`: PNG files by frame, in the frame of an export; one that shows what
+    /// the one before shows is held, frames without one between or after them are blank. It happens once the
+    /// artist's hands are off and touches nothing else: the undo history, view, current layer and frame stay.
+    /// layerDelivered() or layerFailed() tells; a project opened meanwhile is left alone in silence. Pencil2D
+    /// does not count it as a change of the project.
+    virtual void deliverLayer(const QString& name, const QMap<int, QString>& pictures) = 0;
 
     // Project
     virtual QString projectPath() const = 0; ///< absolute; empty while untitled
     virtual bool isModified() const = 0;
     virtual bool openProject(const QString& path) = 0;
+    /// Save the project where it is; false if it was not written.
+    virtual bool saveProject() = 0;
 
-    /// Ask for frames first..last with only the named layers (empty: all visible). They come by
-    /// frameExported(), one or a few each time the artist is idle: never while a button is down or the
+    /// Ask for frames first..last with only the named layers, hidden or not (empty: all visible). They come
+    /// by frameExported(), one or a few each time the artist is idle: never while a button is down or the
     /// animation plays. A newer request for a frame replaces the older one. exportFailed() tells what cannot
     /// be had.
     virtual void requestFrames(int first, int last, const QStringList& layers = {}) = 0;
@@ -117,6 +138,8 @@ Q_SIGNALS:
     /// A stroke, undo, paste or any other change ended; pixels of the current frame may differ.
     void drawingChanged(int frame);
     void layersChanged();
+    void layerDelivered(const QString& name);
+    void layerFailed(const lampblack::UserError& error);
     void projectOpened(const QString& path); ///< also a new one: path empty
     void projectSaved(const QString& path);  ///< path differs from before: saved as
     void frameExported(const lampblack::FrameExport& frame);

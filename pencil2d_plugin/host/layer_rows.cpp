@@ -167,6 +167,13 @@ QVector<bool> LayerRows::eyes(int count) const
     return eyes;
 }
 
+void LayerRows::openProperties(int row) const
+{
+    const Scrolled scrolled(mParts.layerCells, row);
+    sendMouse(mParts.layerCells, QEvent::MouseButtonDblClick, QPoint(NameX, RowHeight + RowHeight / 2),
+              Qt::LeftButton);
+}
+
 QString LayerRows::nameAt(int row, bool* isCamera) const
 {
     QString name;
@@ -181,10 +188,43 @@ QString LayerRows::nameAt(int row, bool* isCamera) const
                 *isCamera = true;
             }
         });
-    const Scrolled scrolled(mParts.layerCells, row);
-    sendMouse(mParts.layerCells, QEvent::MouseButtonDblClick, QPoint(NameX, RowHeight + RowHeight / 2),
-              Qt::LeftButton);
+    openProperties(row);
     return name;
+}
+
+bool LayerRows::remove(int row, const QString& name) const
+{
+    QAction* action = mParts.action("actionDelete_Current_Layer");
+    bool isCamera = false;
+    if (action == nullptr || nameAt(row, &isCamera) != name || isCamera)
+        return false;
+    select(row);
+    // What is deleted is whatever is current: see that it is this one, and that the question is about it.
+    if (currentRow() != row)
+        return false;
+    bool asked = false;
+    const UnseenDialogs unseen([](QDialog*) {},
+                               [&](const QString& question) { return asked = question.contains(name); });
+    action->trigger();
+    return asked && unseen.complaints().isEmpty();
+}
+
+bool LayerRows::rename(int row, const QString& name) const
+{
+    bool isCamera = false;
+    {
+        const UnseenDialogs unseen(
+            [&](QDialog* dialog)
+            {
+                if (auto* input = qobject_cast<QInputDialog*>(dialog))
+                {
+                    input->setTextValue(name);
+                    input->accept();
+                }
+            });
+        openProperties(row);
+    }
+    return nameAt(row, &isCamera) == name;
 }
 
 Layer::Kind LayerRows::kindOf(const QImage& picture) const

@@ -23,9 +23,15 @@ public:
     int currentRow() const; ///< -1 if none can be made out
     void select(int row) const;
 
+    /// Delete the layer of this row. False, with nothing done, if it is not called `name` or the program
+    /// does not do it. A layer that is gone cannot be had back.
+    bool remove(int row, const QString& name) const;
+    bool rename(int row, const QString& name) const;
+
 private:
     QImage picture(int row) const;
     void press(int row, int x) const;
+    void openProperties(int row) const;
     QString nameAt(int row, bool* isCamera) const;
     Layer::Kind kindOf(const QImage& picture) const;
 

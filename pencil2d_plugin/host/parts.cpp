@@ -155,6 +155,9 @@ QString whyNot(const Parts& parts, Host::Ability ability)
         return whyNoFrames(parts);
     case Host::Ability::Layers:
         return whyNoLayers(parts);
+    case Host::Ability::Deliver:
+        return parts.action("actionImportLayers_from_pclx") != nullptr ? whyNoLayers(parts)
+                                                                       : absent("import of layers");
     case Host::Ability::View:
         return has(parts.view, "viewChanged()") ? QString() : absent("view");
     case Host::Ability::Undo:

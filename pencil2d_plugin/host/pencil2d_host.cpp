@@ -29,8 +29,9 @@ bool isSame(const Layer& a, const Layer& b)
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
-      mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr), mDrawing(parts, &mIdleness, nullptr),
-      mPalette(parts, nullptr), mOptions(parts, nullptr), mCanvasSize(DefaultCanvas)
+      mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
+      mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr), mOptions(parts, nullptr),
+      mCanvasSize(DefaultCanvas)
 {
     connect(&mPalette, &ToolPalette::activated, this,
             [this](bool active)
@@ -50,6 +51,7 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
             [this](bool playing)
             {
                 mQueue.setPlaying(playing);
+                mDelivery.setPlaying(playing);
                 Q_EMIT playingChanged(playing);
             });
     connect(&mProject, &ProjectWatch::opened, this, &Pencil2DHost::onProjectOpened);
@@ -69,6 +71,13 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     connect(&mQueue, &FrameQueue::looked, this, &Pencil2DHost::onLooked);
     connect(&mQueue, &FrameQueue::exported, this, &Pencil2DHost::onExported);
     connect(&mQueue, &FrameQueue::failed, this, &Host::exportFailed);
+    connect(&mDelivery, &LayerDelivery::delivered, this,
+            [this](const QString& name)
+            {
+                surveyLayers();
+                Q_EMIT layerDelivered(name);
+            });
+    connect(&mDelivery, &LayerDelivery::failed, this, &Host::layerFailed);
     if (has(parts.view, "viewChanged()"))
         connect(parts.view, SIGNAL(viewChanged()), this, SIGNAL(viewChanged()));
     if (has(parts.layers, "currentLayerChanged(int)"))
@@ -179,6 +188,34 @@ void Pencil2DHost::requestFrames(int first, int last, const QStringList& layers)
         Q_EMIT exportFailed(frame, error);
 }
 
+void Pencil2DHost::hideLayers(const QStringList& names)
+{
+    if (!can(Ability::Layers))
+        return;
+    {
+        const Idleness::Work work(&mIdleness);
+        const QVector<bool> open = mRows.eyes(mLayers.size());
+        for (int row = 0; row < mLayers.size(); ++row)
+        {
+            if (open[row] && names.contains(mLayers[row].name))
+                mRows.clickEye(row);
+        }
+    }
+    surveyEyes();
+}
+
+void Pencil2DHost::deliverLayer(const QString& name, const QMap<int, QString>& pictures)
+{
+    if (can(Ability::Deliver))
+    {
+        mDelivery.deliver(name, pictures, mCamera, frameCount());
+        return;
+    }
+    Q_EMIT layerFailed({QStringLiteral("This version of Pencil2D takes no layer from Lampblack."),
+                        QStringLiteral("Import the rendered frames as an image sequence."),
+                        whyNot(Ability::Deliver)});
+}
+
 void Pencil2DHost::onCurrentLayerChanged(int index)
 {
     if (mIdleness.isWorking())
@@ -198,6 +235,7 @@ void Pencil2DHost::onCurrentLayerChanged(int index)
 void Pencil2DHost::onProjectOpened(const QString& path)
 {
     mQueue.cancel();
+    mDelivery.cancel();
     mLayers.clear();
     mLayersKnown = false;
     mCameraKnown = false;

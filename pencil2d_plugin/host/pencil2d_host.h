@@ -4,6 +4,7 @@
 #include "host/camera_path.h"
 #include "host/drawing_watch.h"
 #include "host/frame_queue.h"
+#include "host/layer_delivery.h"
 #include "host/options_page.h"
 #include "host/project_watch.h"
 #include "host/tool_palette.h"
@@ -39,12 +40,16 @@ public:
     int frameCount() const override { return mTransport.frameCount(); }
     double framesPerSecond() const override { return mTransport.framesPerSecond(); }
     bool isPlaying() const override { return mTransport.isPlaying(); }
+    FrameRange loopRange() const override { return mTransport.loopRange(); }
 
     QVector<Layer> layers() const override { return mLayers; }
+    void hideLayers(const QStringList& names) override;
+    void deliverLayer(const QString& name, const QMap<int, QString>& pictures) override;
 
     QString projectPath() const override { return mProject.path(); }
     bool isModified() const override { return mProject.isModified(); }
     bool openProject(const QString& path) override { return mProject.open(path); }
+    bool saveProject() override { return mProject.save(); }
 
     void requestFrames(int first, int last, const QStringList& layers) override;
     void cancelRequests() override { mQueue.cancel(); }
@@ -71,6 +76,7 @@ private:
     LayerRows mRows;
     mutable ViewReader mView;
     FrameQueue mQueue;
+    LayerDelivery mDelivery;
     DrawingWatch mDrawing;
     ToolPalette mPalette;
     OptionsPage mOptions;

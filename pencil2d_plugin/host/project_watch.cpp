@@ -58,6 +58,15 @@ bool ProjectWatch::open(const QString& path)
     return QMetaObject::invokeMethod(qApp, "openFileRequested", Qt::QueuedConnection, Q_ARG(QString, path));
 }
 
+bool ProjectWatch::save()
+{
+    QAction* action = mParts.action("actionSave");
+    if (action == nullptr || mPath.isEmpty())
+        return false;
+    action->trigger();
+    return writtenAt(mPath) != mWritten;
+}
+
 bool ProjectWatch::eventFilter(QObject*, QEvent* event)
 {
     if (event->type() == QEvent::WindowTitleChange || event->type() == QEvent::ModifiedChange)

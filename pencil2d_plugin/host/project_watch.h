@@ -23,6 +23,7 @@ public:
     QString path() const { return mPath; }
     bool isModified() const { return mParts.window != nullptr && mParts.window->isWindowModified(); }
     bool open(const QString& path);
+    bool save();
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 

@@ -41,6 +41,19 @@ double Transport::framesPerSecond() const
     return box == nullptr ? Default : box->value();
 }
 
+FrameRange Transport::loopRange() const
+{
+    const FrameRange all{1, mCount};
+    if (mParts.timeControls == nullptr)
+        return all;
+    // Rate, start, end, in this order.
+    const auto boxes = mParts.timeControls->findChildren<QSpinBox*>();
+    constexpr int Boxes = 3;
+    if (boxes.size() != Boxes || !boxes[1]->isEnabled() || boxes[1]->value() > boxes[2]->value())
+        return all;
+    return {boxes[1]->value(), boxes[2]->value()};
+}
+
 void Transport::setFrameCount(int count)
 {
     if (count < 1 || count == mCount)

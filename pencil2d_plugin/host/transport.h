@@ -20,6 +20,7 @@ public:
     int frameCount() const { return mCount; }
     double framesPerSecond() const;
     bool isPlaying() const { return mPlaying; }
+    FrameRange loopRange() const;
 
     void setFrameCount(int count);
 

@@ -1,5 +1,6 @@
 #include "host/unseen_dialogs.h"
 
+#include <QAbstractButton>
 #include <QCoreApplication>
 #include <QEvent>
 #include <QFileDialog>
@@ -10,7 +11,8 @@
 namespace lampblack
 {
 
-UnseenDialogs::UnseenDialogs(Answer answer) : mAnswer(std::move(answer))
+UnseenDialogs::UnseenDialogs(Answer answer, Consent consent)
+    : mAnswer(std::move(answer)), mConsent(std::move(consent))
 {
     mNativeDialogs = !QCoreApplication::testAttribute(Qt::AA_DontUseNativeDialogs);
     QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs, true);
@@ -55,7 +57,15 @@ void UnseenDialogs::answerTo(QDialog* dialog)
         return;
     const QPointer<QDialog> guard(dialog);
     if (auto* box = qobject_cast<QMessageBox*>(dialog))
-        mComplaints.append(box->text());
+    {
+        QAbstractButton* yes = box->button(QMessageBox::Yes);
+        if (yes == nullptr)
+            yes = box->button(QMessageBox::Ok);
+        if (yes != nullptr && mConsent && mConsent(box->text()))
+            yes->click();
+        else
+            mComplaints.append(box->text());
+    }
     else
         mAnswer(dialog);
     if (guard != nullptr && guard->isVisible())

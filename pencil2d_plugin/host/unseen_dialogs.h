@@ -20,8 +20,10 @@ class UnseenDialogs : public QObject
 
 public:
     using Answer = std::function<void(QDialog*)>;
+    using Consent = std::function<bool(const QString& question)>;
 
-    explicit UnseenDialogs(Answer answer);
+    /// Message boxes are complaints, but for questions that have our `consent`: they are answered Yes.
+    explicit UnseenDialogs(Answer answer, Consent consent = {});
     ~UnseenDialogs() override;
 
     /// Texts of message boxes that came up: what the program complained about.
@@ -33,6 +35,7 @@ private:
     void answerTo(QDialog* dialog);
 
     Answer mAnswer;
+    Consent mConsent;
     QStringList mComplaints;
     bool mNativeDialogs = true;
 };

@@ -1,4 +1,4 @@
-// Starts the real Pencil2D with host_visitor inside, on projects whose every pixel is known.
+// Starts the real Pencil2D with a visitor inside, on projects whose every pixel is known.
 #include "known_drawing.h"
 
 #include <QProcess>
@@ -13,13 +13,16 @@ class InPencil2D : public QObject
 private Q_SLOTS:
     void visitorPasses_data()
     {
+        QTest::addColumn<QString>("visitor");
         QTest::addColumn<QString>("scale");
-        QTest::newRow("plain") << QStringLiteral("1");
-        QTest::newRow("high density") << QStringLiteral("2");
+        QTest::newRow("host") << QStringLiteral("host_visitor") << QStringLiteral("1");
+        QTest::newRow("host, high density") << QStringLiteral("host_visitor") << QStringLiteral("2");
+        QTest::newRow("layer") << QStringLiteral("layer_visitor") << QStringLiteral("1");
     }
 
     void visitorPasses()
     {
+        QFETCH(QString, visitor);
         QFETCH(QString, scale);
         const QString program = QStandardPaths::findExecutable(QStringLiteral("pencil2d"));
         if (program.isEmpty())
@@ -37,7 +40,7 @@ private Q_SLOTS:
         environment.insert(QStringLiteral("XDG_RUNTIME_DIR"), home.path());
         environment.remove(QStringLiteral("XDG_CONFIG_HOME"));
         environment.insert(QStringLiteral("QT_PLUGIN_PATH"), QStringLiteral(LAMPBLACK_VISITOR_FOLDER));
-        environment.insert(QStringLiteral("QT_QPA_GENERIC_PLUGINS"), QStringLiteral("host_visitor"));
+        environment.insert(QStringLiteral("QT_QPA_GENERIC_PLUGINS"), visitor);
         environment.insert(QStringLiteral("QT_SCALE_FACTOR"), scale);
         environment.insert(QStringLiteral("VISITOR_MOVING_PROJECT"), moving);
         QProcess pencil;

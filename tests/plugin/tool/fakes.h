@@ -55,10 +55,14 @@ public:
     int frameCount() const override { return 8; }
     double framesPerSecond() const override { return 12; }
     bool isPlaying() const override { return false; }
+    FrameRange loopRange() const override { return {1, 8}; }
     QVector<Layer> layers() const override { return mLayers; }
+    void hideLayers(const QStringList&) override {}
+    void deliverLayer(const QString&, const QMap<int, QString>&) override {}
     QString projectPath() const override { return {}; }
     bool isModified() const override { return false; }
     bool openProject(const QString&) override { return false; }
+    bool saveProject() override { return false; }
     void requestFrames(int, int, const QStringList&) override {}
     void cancelRequests() override {}
     int pendingRequests() const override { return 0; }

@@ -1,0 +1,217 @@
+#include "host/layer_delivery.h"
+
+#include "host/layer_import.h"
+#include "host/project_file.h"
+
+#include <QCryptographicHash>
+#include <QDir>
+#include <QImageReader>
+#include <QPainter>
+
+#include <algorithm>
+
+namespace lampblack
+{
+
+namespace
+{
+
+constexpr int RetryMs = 60;      ///< while the artist is busy
+constexpr int MaxSide = 4096;    ///< of a picture
+constexpr int MaxCanvas = 16384; ///< of a picture brought back from under a camera
+
+QImage readPng(const QString& path)
+{
+    QImageReader reader(path, "png");
+    const QSize size = reader.size();
+    if (!size.isValid() || size.width() > MaxSide || size.height() > MaxSide)
+        return {};
+    return reader.read().convertToFormat(QImage::Format_ARGB32);
+}
+
+/// The picture as it lies on the canvas, whatever the camera; a null image if it would be too large.
+Cel celOf(const QImage& picture, const QTransform& view)
+{
+    const QPoint origin = originIn(picture.size()).toPoint();
+    Cel cel = cut(picture, origin);
+    if (view.isIdentity())
+        return cel;
+    const QTransform back = view.inverted();
+    const QRect seen = back.mapRect(QRectF(QRect(cel.corner, cel.image.size()))).toAlignedRect();
+    if (seen.width() > MaxCanvas || seen.height() > MaxCanvas)
+        return {};
+    QImage canvas(seen.size(), QImage::Format_ARGB32_Premultiplied);
+    canvas.fill(Qt::transparent);
+    QPainter painter(&canvas);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    painter.setTransform(back * QTransform::fromTranslate(-seen.x(), -seen.y()));
+    painter.drawImage(cel.corner, cel.image);
+    painter.end();
+    return cut(canvas, -seen.topLeft());
+}
+
+QByteArray digestOf(const Cel& cel)
+{
+    QCryptographicHash hash(QCryptographicHash::Sha1);
+    for (int y = 0; y < cel.image.height(); ++y)
+        hash.addData(reinterpret_cast<const char*>(cel.image.constScanLine(y)), cel.image.width() * 4);
+    return hash.result() + QByteArray::number(cel.corner.x()) + ',' + QByteArray::number(cel.corner.y()) +
+           ',' + QByteArray::number(cel.image.width());
+}
+
+/// Returns what went wrong; empty if nothing did.
+QString writeLayer(ProjectFile* file, const QString& name, const QMap<int, QString>& pictures,
+                   const CameraKeys& camera, int frameCount)
+{
+    const QString full = QStringLiteral("The key frames cannot be written to the temporary folder.");
+    QImage nothing(1, 1, QImage::Format_ARGB32);
+    nothing.fill(Qt::transparent);
+    const Cel blank = cut(nothing, QPoint());
+    QByteArray shown; // by the frame before
+    int next = pictures.isEmpty() ? 1 : pictures.firstKey();
+    for (auto picture = pictures.cbegin(); picture != pictures.cend(); ++picture)
+    {
+        if (picture.key() > next && !file->addKey(next, blank))
+            return full;
+        if (picture.key() > next)
+            shown.clear();
+        next = picture.key() + 1;
+        const QImage image = readPng(picture.value());
+        if (image.isNull())
+            return QStringLiteral("%1 cannot be read.").arg(picture.value());
+        const Cel cel = celOf(image, cameraAt(camera, picture.key()));
+        if (cel.image.isNull())
+            return QStringLiteral("Frame %1 would be too large on the canvas.").arg(picture.key());
+        const QByteArray digest = digestOf(cel);
+        if (digest == shown)
+            continue;
+        shown = digest;
+        if (!file->addKey(picture.key(), cel))
+            return full;
+    }
+    if (next <= frameCount && !file->addKey(next, blank))
+        return full;
+    return file->finish(name) ? QString() : full;
+}
+
+QStringList namesOf(const QVector<Layer>& layers)
+{
+    QStringList names;
+    for (const Layer& layer : layers)
+        names.append(layer.name);
+    return names;
+}
+
+} // namespace
+
+LayerDelivery::LayerDelivery(const Parts& parts, Idleness* idleness, QObject* parent)
+    : QObject(parent), mParts(parts), mIdleness(idleness), mRows(parts),
+      mFolder(QDir::temp().filePath(QStringLiteral("lampblack-layer-XXXXXX")))
+{
+    mWriters.setMaxThreadCount(1);
+    mTimer.setSingleShot(true);
+    connect(&mTimer, &QTimer::timeout, this, &LayerDelivery::takeIn);
+}
+
+LayerDelivery::~LayerDelivery()
+{
+    mWriters.clear();
+    mWriters.waitForDone();
+}
+
+void LayerDelivery::deliver(const QString& name, const QMap<int, QString>& pictures, const CameraKeys& camera,
+                            int frameCount)
+{
+    cancel();
+    mName = name;
+    const QString folder = mFolder.filePath(QString::number(mNumber));
+    if (!mFolder.isValid())
+    {
+        fail(mFolder.errorString());
+        return;
+    }
+    mWriters.start(
+        [this, name, pictures, camera, frameCount, folder, number = mNumber]
+        {
+            ProjectFile file(folder);
+            const QString fault = writeLayer(&file, name, pictures, camera, frameCount);
+            QMetaObject::invokeMethod(
+                this,
+                [this, fault, number, path = file.path()]
+                {
+                    if (number != mNumber)
+                        return;
+                    mProject = path;
+                    if (fault.isEmpty())
+                        takeIn();
+                    else
+                        fail(fault);
+                },
+                Qt::QueuedConnection);
+        });
+}
+
+void LayerDelivery::cancel()
+{
+    ++mNumber;
+    mTimer.stop();
+}
+
+void LayerDelivery::takeIn()
+{
+    if (mParts.window == nullptr)
+        return;
+    if (mPlaying || !mIdleness->isIdle())
+    {
+        mTimer.start(RetryMs);
+        return;
+    }
+    const QString fault = replace(mProject);
+    if (fault.isEmpty())
+        Q_EMIT delivered(mName);
+    else
+        fail(fault);
+}
+
+QString LayerDelivery::replace(const QString& project)
+{
+    const Idleness::Work work(mIdleness);
+    const UpdatesOff unseen({mParts.window});
+    const QStringList before = namesOf(mRows.read());
+    const int artists = mRows.currentRow();
+    if (before.isEmpty() || artists < 0)
+        return QStringLiteral("The list of layers does not answer.");
+
+    QString fault = importLayer(mParts, project, mName);
+    const QStringList after = namesOf(mRows.read());
+    if (after.mid(1) != before)
+        return fault.isEmpty() ? QStringLiteral("The layers are not as they should be: %1")
+                                     .arg(after.join(QStringLiteral(", ")))
+                               : fault;
+    // Only now the old one goes: a layer that failed to come has cost nothing.
+    const int old = before.indexOf(mName);
+    int current = artists == old ? 0 : artists + 1;
+    if (old >= 0)
+    {
+        if (!mRows.remove(old + 1, mName))
+            fault = QStringLiteral("The layer made before could not be removed.");
+        else if (old < artists)
+            --current;
+        if (fault.isEmpty() && !mRows.rename(0, mName))
+            fault = QStringLiteral("The new layer could not be named.");
+    }
+    mRows.select(current);
+    // Pencil2D says nothing of layers that came by import.
+    const int count = mRows.read().size();
+    QMetaObject::invokeMethod(mParts.layers, "layerCountChanged", Q_ARG(int, count));
+    QMetaObject::invokeMethod(mParts.layers, "currentLayerChanged", Q_ARG(int, count - 1 - current));
+    return fault;
+}
+
+void LayerDelivery::fail(const QString& details)
+{
+    Q_EMIT failed({QStringLiteral("The layer \"%1\" could not be put into the project.").arg(mName),
+                   QStringLiteral("Save the project, then try again."), details});
+}
+
+} // namespace lampblack
