@@ -14,6 +14,7 @@ namespace
 
 constexpr double Threshold = 3; // a shaky click is no drag
 constexpr int TagMs = 900;
+constexpr qint64 ZoomPauseMs = 500;
 constexpr double NotchUnits = 120;
 
 QCursor lampCursor()
@@ -180,9 +181,8 @@ bool CanvasInput::press(const Pointer& pointer)
     const Handle handle = mOverlay.handles().at(pointer.position);
     if (handle.part == HandlePart::None)
     {
-        mDocument.selectLight(-1);
         mSwallowRelease = true;
-        return true; // a light click on the drawing must not draw on it
+        return true; // with the lamp in hand nothing is drawn
     }
     if (handle.light >= 0)
         mDocument.selectLight(handle.light);
@@ -248,8 +248,13 @@ bool CanvasInput::wheel(QEvent* event)
     const double notches = wheel.angleDelta().y() / NotchUnits;
     if (mDrag)
         return true;
-    if (handle.part == HandlePart::None || wheel.modifiers().testFlag(Qt::ControlModifier))
+    // A light that comes under the pointer while the artist zooms must not end the zoom.
+    const bool isZooming = mZoomed.isValid() && mZoomed.elapsed() < ZoomPauseMs;
+    if (handle.part == HandlePart::None || isZooming || wheel.modifiers().testFlag(Qt::ControlModifier))
+    {
+        mZoomed.start();
         return false;
+    }
     wheel.accept();
     const bool isFloor = handle.part == HandlePart::Floor;
     if (!isFloor)

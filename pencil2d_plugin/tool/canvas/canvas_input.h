@@ -8,6 +8,7 @@
 #include "tool/gesture.h"
 
 #include <QCursor>
+#include <QElapsedTimer>
 #include <QObject>
 #include <QTimer>
 
@@ -80,6 +81,7 @@ private:
     bool mPicking = false;
     bool mPenDown = false;
     GestureRun mWheelRun;
+    QElapsedTimer mZoomed; ///< since the wheel last went to the drawing program
     QTimer mTagTimer;
     QCursor mLampCursor;
     std::optional<QCursor> mCursorBefore;

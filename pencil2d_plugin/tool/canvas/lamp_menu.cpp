@@ -84,7 +84,9 @@ void LampMenu::fill(const QPointF& canvas, const QString& colour)
 
 void LampMenu::fillMaterial(const QString& colour)
 {
-    QAction* heading = addSection(colourIcon(QColor(colour), IconSide, devicePixelRatioF()), colour);
+    addSeparator();
+    QAction* heading = addAction(colourIcon(QColor(colour), IconSide, devicePixelRatioF()), colour);
+    heading->setEnabled(false);
     heading->setObjectName(QStringLiteral("lampblack.menu.colour"));
     const Material material = mDocument.scene().material(colour);
     const auto tick = [this, colour](const char* name, const QString& text, bool on, bool Material::*field)
@@ -125,7 +127,9 @@ QIcon colourIcon(const QColor& colour, int side, double pixelRatio)
     painter.setBrush(colour);
     painter.drawRoundedRect(QRectF(0.5, 0.5, side - 1, side - 1), 2, 2);
     painter.end();
-    return QIcon(pixmap);
+    QIcon icon(pixmap);
+    icon.addPixmap(pixmap, QIcon::Disabled); // a colour is shown true, whatever can be done with it
+    return icon;
 }
 
 } // namespace lampblack

@@ -10,7 +10,8 @@ namespace lampblack
 namespace
 {
 constexpr int MostElsewhere = 256; // rows; the scene may hold thousands
-}
+constexpr int LeastLines = 8;      // of text: a few colours in sight
+} // namespace
 
 MaterialsDock::MaterialsDock(SceneDocument& document)
     : QDockWidget(tr("Materials")), mDocument(document), mPick(new QToolButton), mEmpty(new QLabel),
@@ -43,6 +44,7 @@ MaterialsDock::MaterialsDock(SceneDocument& document)
     mEmpty->setObjectName(QStringLiteral("lampblack.materials.empty"));
     mEmpty->setText(tr("The colours of the drawing appear here once it has been looked at with the Lamp."));
     mEmpty->setWordWrap(true);
+    mEmpty->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     mEmpty->setMargin(6);
     mInFrame->setSpacing(0);
     mElsewhere->body()->setContentsMargins(0, 0, 0, 0);
@@ -62,6 +64,7 @@ MaterialsDock::MaterialsDock(SceneDocument& document)
     mScroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     mScroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
     mScroll->setWidget(rows);
+    mScroll->setMinimumHeight(fontMetrics().height() * LeastLines);
     setWidget(mScroll);
 
     connect(mPick, &QToolButton::clicked, this, &MaterialsDock::pickRequested);

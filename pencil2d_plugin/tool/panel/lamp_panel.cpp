@@ -6,6 +6,8 @@
 
 #include <QHBoxLayout>
 #include <QScrollBar>
+#include <QShowEvent>
+#include <QTimer>
 
 #include <algorithm>
 
@@ -99,6 +101,21 @@ void LampPanel::showProblem(const UserError& error)
 {
     mProblem->tell(error);
     verticalScrollBar()->setValue(0);
+}
+
+void LampPanel::showEvent(QShowEvent* event)
+{
+    QScrollArea::showEvent(event);
+    // Once the dock knows its new page.
+    if (!event->spontaneous())
+        QTimer::singleShot(0, this, [this] { mHeight.borrow(*this, sizeHint().height()); });
+}
+
+void LampPanel::hideEvent(QHideEvent* event)
+{
+    QScrollArea::hideEvent(event);
+    if (!event->spontaneous())
+        mHeight.giveBack();
 }
 
 QSize LampPanel::sizeHint() const

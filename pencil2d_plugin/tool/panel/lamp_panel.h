@@ -3,6 +3,7 @@
 
 #include "host/host.h"
 #include "scene/scene_document.h"
+#include "tool/panel/borrowed_height.h"
 #include "tool/panel/problem_card.h"
 #include "tool/panel/render_section.h"
 #include "tool/view_mode.h"
@@ -33,6 +34,10 @@ public:
 Q_SIGNALS:
     void viewModeChanged(lampblack::ViewMode mode);
 
+protected:
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+
 private:
     QWidget* viewSwitch();
 
@@ -40,6 +45,7 @@ private:
     ProblemCard* mProblem;
     RenderSection* mRender;
     WorkerLine* mWorkerLine;
+    BorrowedHeight mHeight;
 };
 
 } // namespace lampblack

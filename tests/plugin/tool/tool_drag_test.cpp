@@ -156,6 +156,14 @@ private Q_SLOTS:
         QCOMPARE(mDocument->undoStack()->count(), 0);
     }
 
+    void aLightThatComesUnderAZoomingPointerIsPassedBy()
+    {
+        wheel({20, 20}, 1);
+        mHost->look(QTransform::fromTranslate(20 - 200, 20 - 150));
+        wheel({20, 20}, 1);
+        QCOMPARE(light().z, 200.0);
+    }
+
     void theFloorMovesAndPitches()
     {
         Scene scene = mDocument->scene();
@@ -186,13 +194,13 @@ private Q_SLOTS:
         QCOMPARE(mDocument->undoStack()->count(), 1);
     }
 
-    void aClickBesideEverythingLetsGoAndDrawsNothing()
+    void aClickBesideEverythingDrawsNothing()
     {
         QMouseEvent press(QEvent::MouseButtonPress, QPointF(20, 280), Qt::LeftButton, Qt::LeftButton,
                           Qt::NoModifier);
         QCoreApplication::sendEvent(mHost->mCanvas, &press);
         QVERIFY(press.isAccepted());
-        QCOMPARE(mDocument->selectedLight(), -1);
+        QCOMPARE(mDocument->selectedLight(), 0);
     }
 
     void panningAndZoomingPassThrough()
