@@ -34,9 +34,9 @@ uninstall:
 test: check
 	@scripts/environment.sh test
 	cmake --preset dev && cmake --build --preset dev
-	ctest --preset dev
-	cmake --preset asan && cmake --build --preset asan --target protocol_tests
-	ctest --preset asan -L protocol
+	LAMPBLACK_PYTHON=$(PYTHON_OF_WORKER) ctest --preset dev
+	cmake --preset asan && cmake --build --preset asan --target codec_vectors codec_fuzz planes
+	ctest --preset asan -R '^(codec_vectors|codec_fuzz|planes)$$'
 	$(BIN)/pytest -m "not slow"
 
 test-slow: test
