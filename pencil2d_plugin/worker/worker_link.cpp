@@ -209,8 +209,8 @@ void WorkerLink::converse(zmq::socket_t& socket, zmq::socket_t& wake)
         flush(socket);
         if (reading)
         {
-            drain(socket);
-            if (now() - mHeardMs > mPatienceMs)
+            const bool drained = drain(socket);
+            if (drained && now() - mHeardMs > mPatienceMs)
             {
                 return;
             }
@@ -234,8 +234,11 @@ void WorkerLink::flush(zmq::socket_t& socket)
         const std::optional<QByteArray> header = protocol::encode(outgoing.message);
         if (!header)
         {
-            const QString type = protocol::typeOf(outgoing.message);
-            deliver({faultOf(protocol::ErrorCode::HeaderTooLarge, type), {}});
+            if (!std::exchange(mToldTooLong, true))
+            {
+                const QString type = protocol::typeOf(outgoing.message);
+                deliver({faultOf(protocol::ErrorCode::HeaderTooLarge, type), {}});
+            }
             continue;
         }
         const bool planes = !outgoing.pixels.isNull();
@@ -247,14 +250,14 @@ void WorkerLink::flush(zmq::socket_t& socket)
     }
 }
 
-void WorkerLink::drain(zmq::socket_t& socket)
+bool WorkerLink::drain(zmq::socket_t& socket)
 {
     for (int count = 0; count < MostAtOnce && !inboxIsFull(); ++count)
     {
         std::vector<zmq::message_t> frames(1);
         if (!socket.recv(frames.back(), zmq::recv_flags::dontwait))
         {
-            return;
+            return true;
         }
         while (frames.back().more())
         {
@@ -267,6 +270,7 @@ void WorkerLink::drain(zmq::socket_t& socket)
         }
         receive(frames);
     }
+    return false;
 }
 
 void WorkerLink::receive(const std::vector<zmq::message_t>& frames)

@@ -39,7 +39,7 @@ Q_SIGNALS:
 private:
     void run() override;
     void converse(zmq::socket_t& socket, zmq::socket_t& wake);
-    void drain(zmq::socket_t& socket);
+    bool drain(zmq::socket_t& socket); ///< false if more may be waiting
     void receive(const std::vector<zmq::message_t>& frames);
     void deliver(const Incoming& incoming);
     void flush(zmq::socket_t& socket);
@@ -60,6 +60,7 @@ private:
     qint64 mPatienceMs = 0; ///< silence that is borne
     qint64 mHeardMs = 0;    ///< when a tick came last, by a clock that only rises
     int mRefused = 0;
+    bool mToldTooLong = false; ///< once is enough: a dragged light would tell of it without end
 };
 
 } // namespace lampblack

@@ -259,6 +259,12 @@ void WorkerSession::handle(const protocol::Error& error)
         }
         return;
     }
+    if (error.code == QLatin1String("header_too_large"))
+    {
+        Q_EMIT problem({tr("More colours have a material of their own than can be lit at once."),
+                        tr("Give fewer colours a material of their own."), details});
+        return;
+    }
     const bool ofLook = mLook && error.request && *error.request == mLook->request;
     const bool expected =
         error.code == QLatin1String("unknown_frame") || error.code == QLatin1String("no_scene");
