@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
@@ -42,7 +43,9 @@ Floats = NDArray[np.float32]
 def walk(folder: Path, cycle: list[int]) -> Path:
     """A project of balls, one key a frame, that repeats drawings as ``cycle`` says."""
     keys = [image(n, f"{name}.png", -40, -40) for n, name in enumerate(cycle, start=1)]
-    pictures = {f"{n}.png": png(draw_ball(80, (60 + 40 * n, 90, 60))) for n in set(cycle)}
+    pictures = {
+        f"{n}.png": png(draw_ball(80, ((60 + 40 * n) % 256, 90, n % 200))) for n in set(cycle)
+    }
     xml = document([layer(2, "ball", keys)], size=(96, 96))
     return write_project(folder / "walk.pclx", xml, pictures)
 
@@ -283,6 +286,30 @@ def test_keyed_lights_move_and_what_stands_still_is_not_traced_again(
     pictures = [load_picture(tmp_path / "lit" / f"walk.000{n}.png") for n in (1, 2, 3)]
     means = [float(p[..., :3].mean()) for p in pictures]
     assert means[0] < means[1] < means[2]
+
+
+def test_memory_does_not_grow_with_the_frames(
+    run: Run, tmp_path: Path, unrendered: list[str]
+) -> None:
+    """500 frames of 250 drawings; a picture is 150 KiB, so that keeping them would show."""
+    project, frames = walk(tmp_path, [n % 250 for n in range(500)]), 500
+    held: list[int] = []
+    original = Pipeline.render
+
+    def render(self: Pipeline, drawing: object, scene: object) -> object:
+        held.append(tracemalloc.get_traced_memory()[0])
+        return original(self, drawing, scene)  # type: ignore[arg-type]
+
+    tracemalloc.start()
+    try:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Pipeline, "render", render)
+            assert run("render", project, "-o", tmp_path / "lit").code == 0
+    finally:
+        tracemalloc.stop()
+    assert len(files(tmp_path / "lit")) == frames
+    assert len(held) == 250
+    assert np.mean(held[-20:]) - np.mean(held[20:40]) < 1 << 20
 
 
 @pytest.mark.cycles

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from conftest import draw_ball
-from lampblack.drawing import save_picture
+from lampblack.drawing import load_picture, save_picture
 from lampblack.protocol import (
     Crop,
     Done,
@@ -25,7 +25,7 @@ from lampblack.protocol import (
     Status,
     View,
 )
-from lampblack.scene import Scene, default_scene, encode_scene
+from lampblack.scene import LightKey, Scene, default_scene, encode_scene
 from lampblack.service.client import Client, Worker
 
 pytestmark = pytest.mark.cycles
@@ -182,7 +182,8 @@ def test_a_job_writes_what_the_command_line_writes(client: Client, tmp_path: Pat
     assert CliRunner().invoke(app, arguments).exit_code == 0
     for number in (1, 2):
         name = f"ball.{number:04d}.png"
-        assert (tmp_path / "job" / name).read_bytes() == (tmp_path / "cli" / name).read_bytes()
+        theirs, ours = (load_picture(tmp_path / folder / name) for folder in ("job", "cli"))
+        assert np.array_equal(theirs, ours)
 
     again = Render(request=client.next_request(), frames="1-2", output=output, keep_finished=True)
     client.send(again)
@@ -200,6 +201,39 @@ def test_all_frames_are_lit_while_nothing_else_is_to_do(client: Client) -> None:
     client.look(3, (SIZE, SIZE), WHOLE)
     image, _ = client.picture(10, lambda i: i.frame == 3)
     assert image.spp >= 4
+
+
+def test_keyed_lights_move_from_frame_to_frame_in_previews_and_jobs(
+    client: Client, tmp_path: Path
+) -> None:
+    picture = draw_ball(SIZE - 16, (90, 200, 90), canvas=SIZE)
+    for number in (1, 2, 3):
+        client.announce(number, picture)
+    light = lit_from(80).lights[0]
+    keys = tuple(LightKey(n, x, light.y, light.z, light.size) for n, x in ((1, 0), (3, SIZE)))
+    revision = client.set_scene(lit_from(80, keys=keys))
+
+    def lean(shown: np.ndarray) -> float:
+        """How much brighter the right side is than the left."""
+        return float(shown[:, 100:130].mean() - shown[:, 30:60].mean())
+
+    leans = []
+    for number in (1, 2, 3):
+        client.look(number, (SIZE, SIZE), WHOLE)
+        _, shown = client.picture(
+            60, lambda i, n=number: i.converged and i.revision == revision and i.frame == n
+        )
+        leans.append(lean(shown.astype(int)))
+    assert leans[0] < -5 < 5 < leans[2]
+    assert leans[0] < leans[1] < leans[2]
+    # One drawing, but three frames to light.
+    client.wait_for(Status, 60, lambda s: s.frames_lit == 3)
+
+    output = str(tmp_path / "%04d.png")
+    client.send(Render(request=client.next_request(), frames="1-3", output=output, quality="low"))
+    client.wait_for(Done, 120)
+    rendered = [lean(load_picture(tmp_path / f"{n:04d}.png").astype(int)) for n in (1, 2, 3)]
+    assert rendered[0] < -5 < 5 < rendered[2]
 
 
 def test_blank_frames_and_unknown_ones_are_told(client: Client) -> None:

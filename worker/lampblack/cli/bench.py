@@ -25,14 +25,18 @@ class Benchmark(StrEnum):
     NORMALS = "normals"
     FINAL = "final"
     RELIGHT = "relight"
+    ANIMATION = "animation"
 
 
 def bench(
     what: Benchmark,
     drawing: Annotated[
-        Path | None, typer.Argument(metavar="[DRAWING]", help="Default: the example character.")
+        Path | None,
+        typer.Argument(metavar="[DRAWING]", help="Default: an example. Of animation: a shot."),
     ] = None,
-    scene: Annotated[Path | None, typer.Option("--scene", help="For final and relight.")] = None,
+    scene: Annotated[
+        Path | None, typer.Option("--scene", help="For all but inflate, normals.")
+    ] = None,
     reference: Annotated[
         bool, typer.Option("--reference", help="final: also measure noise (minutes).")
     ] = False,
@@ -42,6 +46,11 @@ def bench(
 
     Example: lampblack bench inflate --json
     """
+    if what is Benchmark.ANIMATION:
+        from ..bench.animation import bench_animation
+
+        _show(bench_animation(drawing or _example("lamplighter.pclx"), scene), as_json)
+        return
     picture = load_picture(drawing or _example("character.png"))
     if what is Benchmark.INFLATE:
         from ..bench.inflate import bench_inflate
@@ -61,6 +70,10 @@ def bench(
         from ..bench.final import bench_final
 
         figures = bench_final(picture, _scene(scene, drawing, picture.shape), reference=reference)
+    _show(figures, as_json)
+
+
+def _show(figures: dict[str, float], as_json: bool) -> None:
     figures = {n: float(f"{v:.4g}") if isinstance(v, float) else v for n, v in figures.items()}
     if as_json:
         sys.stdout.write(msgspec.json.encode(figures).decode() + "\n")

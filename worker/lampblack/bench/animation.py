@@ -1,0 +1,66 @@
+"""A whole shot at final quality: what a frame costs, and what of that is not the renderer."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ..cache import ArrayCache
+from ..finals.light import light_frames
+from ..finals.order import Order, open_order
+from ..finals.shot import by_drawing
+from ..pipeline import Pipeline
+from ..render import Passes, RenderChild, RenderRequest
+from .memory import peak_gib, processor_seconds
+
+
+class _TimedChild(RenderChild):
+    """Adds up how long the renderer was waited for."""
+
+    seconds = 0.0
+
+    def render(self, request: RenderRequest) -> Passes:
+        begin = time.perf_counter()
+        try:
+            return super().render(request)
+        finally:
+            self.seconds += time.perf_counter() - begin
+
+
+def bench_animation(source: Path, scene: Path | None) -> dict[str, float]:
+    """Wall seconds of a shot, nothing cached, and of each of its distinct drawings; the share of
+    them that was spent outside the renderer, and the same of processor time, which says more on a
+    busy machine; the peak memory of this process.
+
+    Args:
+        source: a project or a folder. scene: its quality is ignored.
+    """
+    with TemporaryDirectory() as folder:
+        order = Order(
+            inputs=(str(source),),
+            output=f"{folder}/lit",
+            scene=None if scene is None else str(scene),
+            quality="final",
+        )
+        opened = open_order(order)
+        drawings = len(by_drawing(opened.frames))
+        with Pipeline(ArrayCache(Path(folder)), opened.options) as pipeline:
+            pipeline.child = child = _TimedChild()
+            pipeline.warm_up()
+            before = time.process_time(), processor_seconds(child.pid or 0)
+            begin = time.perf_counter()
+            outcome = light_frames(opened, pipeline)
+            seconds = time.perf_counter() - begin
+            rendering = processor_seconds(child.pid or 0) - before[1]
+            joining = time.process_time() - before[0]
+    return {
+        "frames": len(opened.frames),
+        "frames_failed": len(outcome.failed),
+        "distinct_drawings": drawings,
+        "seconds": round(seconds, 2),
+        "seconds_a_drawing": round(seconds / drawings, 2),
+        "share_outside_renderer": round(1 - child.seconds / seconds, 3),
+        "processor_share_outside_renderer": round(joining / (joining + rendering), 3),
+        "peak_memory_gib": peak_gib(),
+    }
