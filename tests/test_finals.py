@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -32,6 +33,7 @@ from lampblack.scene import (
     LightKey,
     Material,
     Scene,
+    decode_scene,
     default_scene,
     encode_scene,
 )
@@ -330,3 +332,14 @@ def test_a_job_that_is_killed_goes_on_where_it_was(tmp_path: Path) -> None:
     assert {path: path.stat().st_mtime_ns for path in before} == before
     finished = [load_picture(out / f"walk.{n:04d}.png") for n in range(1, 41)]
     assert all(np.array_equal(finished[n], finished[n + 20]) for n in range(20))
+
+
+def test_a_project_gives_its_colours_and_a_scene_to_start_from(run: Run, tmp_path: Path) -> None:
+    project, target = walk(tmp_path, [1, 2, 1]), tmp_path / "scene.json"
+    assert run("scene", project, "-o", target).code == 0
+    scene = decode_scene(target.read_bytes())
+    assert (scene.canvas.width, scene.canvas.height) == (96, 96)
+    assert {"#645a01", "#8c5a02"} <= set(scene.materials)
+    listed = json.loads(run("palette", project, "--json").out)
+    pixels = {row["colour"]: row["pixels"] for row in listed}
+    assert pixels["#645a01"] == 2 * pixels["#8c5a02"]

@@ -182,7 +182,7 @@ def _summarise(opened: OpenOrder, outcome: Outcome) -> None:
     there = f", {len(outcome.kept)} of them from before" if outcome.kept else ""
     console.print(
         f"{len(outcome.done)} of {len(opened.frames)} frames are in "
-        f"{opened.targets.folder}{there}.",
+        f"{opened.targets.folder.absolute()}{there}.",
         markup=False,
     )
     if outcome.failed:

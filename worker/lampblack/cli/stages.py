@@ -16,16 +16,19 @@ from rich.console import Console
 from rich.table import Table
 
 from ..atomic import atomic_file
-from ..drawing import find_frames, load_picture, save_picture
+from ..drawing import save_picture, take_apart
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
+from ..finals.order import OpenShot, Order, open_shot
+from ..finals.shot import by_drawing
 from ..normals.predict import DEFAULT_GRIDS
 from ..pipeline import Pipeline, PipelineOptions
-from ..scene import Material, default_scene, encode_scene
+from ..scene import Canvas, Material, default_scene, encode_scene
 from ..surface import save_mesh
 from .console import progress_bar
 from .options import (
     GridsOption,
     InkOption,
+    InputsArgument,
     MaskOption,
     Solver,
     SolverOption,
@@ -93,9 +96,7 @@ def mesh(
 
 
 def palette(
-    inputs: Annotated[
-        list[str], typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
-    ],
+    inputs: InputsArgument,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     mask: MaskOption = None,
     ink: InkOption = None,
@@ -104,7 +105,7 @@ def palette(
 
     Example: lampblack palette walk/
     """
-    counts = _count_colours(inputs, mask, ink)
+    counts = _count_colours(_open(inputs, mask, ink))
     if as_json:
         rows = [{"colour": colour, "pixels": pixels} for colour, pixels in counts]
         sys.stdout.write(msgspec.json.encode(rows).decode() + "\n")
@@ -116,9 +117,7 @@ def palette(
 
 
 def scene(
-    inputs: Annotated[
-        list[str], typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
-    ],
+    inputs: InputsArgument,
     output: Annotated[Path, typer.Option("-o", "--output", help="A .json file.")],
     mask: MaskOption = None,
     ink: InkOption = None,
@@ -128,28 +127,38 @@ def scene(
     Example: lampblack scene walk/ -o walk.json
     """
     check_suffix(output, ".json")
-    first = load_picture(find_frames(inputs)[0].path)
-    start = default_scene(first.shape[1], first.shape[0])
-    materials = {colour: Material() for colour, _ in _count_colours(inputs, mask, ink)}
+    shot = _open(inputs, mask, ink)
+    canvas = shot.shot.canvas
+    if canvas is None:
+        height, width = shot.shot.cel(shot.frames[0]).pixels.shape[:2]
+        canvas = Canvas(width, height)
+    start = default_scene(canvas.width, canvas.height)
+    materials = {colour: Material() for colour, _ in _count_colours(shot)}
     with atomic_file(output) as file:
         file.write(encode_scene(replace(start, materials=materials)))
 
 
-def _count_colours(inputs: list[str], mask: Path | None, ink: Path | None) -> list[tuple[str, int]]:
+def _open(inputs: list[str], mask: Path | None, ink: Path | None) -> OpenShot:
+    mask_path, ink_path = (None if path is None else str(path) for path in (mask, ink))
+    return open_shot(Order(inputs=tuple(inputs), output="", mask=mask_path, ink=ink_path))
+
+
+def _count_colours(shot: OpenShot) -> list[tuple[str, int]]:
+    """Flat colours and their pixels over all frames, most used first."""
     counts: Counter[str] = Counter()
-    found = find_frames(inputs)
     with progress_bar() as bar:
-        for frame in bar.track(found, description="Reading"):
+        for group in bar.track(by_drawing(shot.frames), description="Reading"):
+            name = group[0].name
             try:
-                drawing = read_drawing(frame.path, mask, ink)
+                cel = shot.shot.cel(group[0])
+                drawing = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
             except NothingDrawnError as error:
-                if len(found) == 1:
+                if shot.single:
                     raise
-                warnings.warn(f"{frame.path.name}: {error.what}", LampblackWarning, stacklevel=2)
+                warnings.warn(f"{name}: {error.what}", LampblackWarning, stacklevel=2)
                 continue
             except DrawingError as error:
-                raise DrawingError(
-                    f"{frame.path.name}: {error.what}", error.remedy, error.details
-                ) from error
-            counts.update({swatch.colour: swatch.pixels for swatch in drawing.palette.swatches})
+                raise DrawingError(f"{name}: {error.what}", error.remedy, error.details) from error
+            for swatch in drawing.palette.swatches:
+                counts[swatch.colour] += swatch.pixels * len(group)
     return counts.most_common()
