@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from scipy import ndimage
 from conftest import Run
 from lampblack.errors import LampblackError
 from lampblack.normals.dataset.build import DatasetOptions, build_dataset, entries
+from lampblack.normals.dataset.creatures import creature
 from lampblack.normals.dataset.deform import deformed
 from lampblack.normals.dataset.freestyle import Stroke, draw_freestyle
 from lampblack.normals.dataset.gbuffer import place, trace, trace_placed, view_rotation
@@ -54,6 +56,19 @@ def test_a_data_set_is_the_same_however_often_it_is_interrupted(
         first, second = Triple.load(a), Triple.load(b)
         assert np.array_equal(first.drawings, second.drawings)
         assert np.array_equal(first.normals, second.normals)
+
+
+def test_made_up_creatures_are_exact_and_symmetrical(models: Path, tmp_path: Path) -> None:
+    options = replace(OPTIONS, creatures=3)
+    assert build_dataset(models, tmp_path / "data", None, options) == 7
+    assert len(list((tmp_path / "data" / "creatures").glob("*.npz"))) == 3
+    model = creature("a", np.random.default_rng(5))
+    corners = model.vertices[model.faces]
+    flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    alike = np.einsum("fc,fkc->fk", flat, model.corner_normals)
+    assert alike.min() > 0  # no ellipsoid is inside out
+    view = trace(model, view_rotation(0, 0), 100)
+    assert (view.mask != view.mask[:, ::-1]).mean() < 0.25
 
 
 def test_models_of_a_large_source_give_fewer_views() -> None:

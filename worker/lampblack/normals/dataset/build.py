@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import LampblackError, OutputError
+from . import creatures
 from .deform import deformed
 from .freestyle import Stroke, draw_freestyle
 from .gbuffer import GBuffer, Placed, place, trace_placed
@@ -40,13 +41,15 @@ _LEAST_SHARE = 0.02
 class DatasetOptions:
     """``views`` a model, figures of about ``resolution`` squared pixels, ``hands`` drawings a
     view; half of the views show the model with other proportions if ``deform``; a share
-    ``freestyle`` of the views has one drawing by Blender's Freestyle."""
+    ``freestyle`` of the views has one drawing by Blender's Freestyle; ``creatures`` figures of
+    ellipsoids are made up, each seen once."""
 
     views: int = PAPER_VIEWPOINTS
     resolution: int = 512
     hands: int = 3
     deform: bool = True
     freestyle: float = 0.2
+    creatures: int = 0
     seed: int = 0
     workers: int = field(default=1, compare=False)
 
@@ -83,7 +86,8 @@ def build_dataset(
     """
     paths = find_models(models, split)
     wanted = list(entries(paths, options.views))
-    for folder in {entry_path(output, path, 0).parent for path in paths}:
+    wanted += [(Path(creatures.SOURCE) / f"{n:04d}", 0) for n in range(options.creatures)]
+    for folder in {entry_path(output, path, 0).parent for path, _ in wanted}:
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -140,13 +144,17 @@ def _draw(path: Path, index: int, options: DatasetOptions) -> _Drawn | None:
     """A view and its drawings but for Freestyle's; None if there is nothing to see."""
     name = f"{path.parent.name}/{path.stem}"
     rng = np.random.default_rng([options.seed, crc32(name.encode()), index])
-    try:
-        model = smoothed(load_model(path))
-    except LampblackError:
-        return None
-    if options.deform and rng.random() < 0.5:
-        model = deformed(model, rng)
-    placed = place(model, viewpoint(index, rng), options.resolution, equal_area=True)
+    side = index
+    if path.parent.name == creatures.SOURCE:
+        model, side = creatures.creature(name, rng), int(rng.integers(PAPER_VIEWPOINTS))
+    else:
+        try:
+            model = smoothed(load_model(path))
+        except LampblackError:
+            return None
+        if options.deform and rng.random() < 0.5:
+            model = deformed(model, rng)
+    placed = place(model, viewpoint(side, rng), options.resolution, equal_area=True)
     view = trace_placed(placed)
     if view.mask.sum() < _LEAST_SHARE * options.resolution**2:
         return None
