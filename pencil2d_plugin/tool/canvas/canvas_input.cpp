@@ -302,14 +302,10 @@ void CanvasInput::showCursor()
     const HandlePart part = mDrag ? mDrag->handle().part : mOverlay.hovered().part;
     if (mPicking)
         cursor = Qt::CrossCursor;
-    else if (mDrag && mDrag->kind() == Drag::Kind::LightPlace)
-        cursor = Qt::ClosedHandCursor;
-    else if (part == HandlePart::Light)
-        cursor = Qt::OpenHandCursor;
+    else if (part == HandlePart::Light || part == HandlePart::Size)
+        cursor = Qt::ArrowCursor; // a hand would hide the light
     else if (part == HandlePart::Height || part == HandlePart::Floor)
         cursor = Qt::SizeVerCursor;
-    else if (part == HandlePart::Size)
-        cursor = Qt::SizeAllCursor;
     QWidget& canvas = *mHost.canvas();
     if (!mCursorBefore)
         mCursorBefore = canvas.cursor();

@@ -51,19 +51,23 @@ void BorrowedHeight::borrow(const QWidget& page, int wanted)
     QMainWindow* window = windowOf(mDock);
     if (window == nullptr)
         return;
-    const int height = std::max(mDock->height(), mLast > 0 ? mLast : std::min(wanted, window->height() / 2));
-    QList<QDockWidget*> docks;
-    QList<int> heights;
     const QList<QDockWidget*> column = columnOf(*window, *mDock);
+    const int place = column.indexOf(mDock);
+    QList<int> heights;
     for (QDockWidget* dock : column)
     {
         mBefore << Neighbour{dock, dock->height()};
-        if (dock->y() > mDock->y())
-            continue;
-        docks << dock;
-        heights << (dock == mDock ? height : dock->height());
+        heights << dock->height();
     }
-    window->resizeDocks(docks, heights, Qt::Vertical);
+    const int asked = mLast > 0 ? mLast : std::min(wanted, window->height() / 2);
+    for (int below = column.size() - 1; below > place; --below)
+    {
+        const int spare = heights[below] - column[below]->minimumSizeHint().height();
+        const int lent = std::clamp(asked - heights[place], 0, std::max(0, spare));
+        heights[below] -= lent;
+        heights[place] += lent;
+    }
+    window->resizeDocks(column, heights, Qt::Vertical);
 }
 
 void BorrowedHeight::giveBack()

@@ -226,7 +226,7 @@ private Q_SLOTS:
         mInput->setListening(false);
         mInput->setListening(true);
         sendMouse(mHost->mCanvas, QEvent::MouseMove, place(), Qt::NoButton, Qt::NoButton);
-        QCOMPARE(mHost->mCanvas->cursor().shape(), Qt::OpenHandCursor);
+        QCOMPARE(mHost->mCanvas->cursor().shape(), Qt::ArrowCursor);
         mInput->setListening(false);
         QCOMPARE(mHost->mCanvas->cursor().shape(), Qt::WaitCursor);
         mInput->setListening(true);
