@@ -84,7 +84,7 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Stands in for the renderer where a test is about everything else."""
     rendered: list[str] = []
 
-    def render(self: Pipeline, drawing: object, scene: object) -> object:
+    def render(self: Pipeline, drawing: object, scene: object, beside: object) -> object:
         rendered.append("frame")
         return drawing.pixels  # type: ignore[attr-defined]
 

@@ -298,9 +298,9 @@ def test_memory_does_not_grow_with_the_frames(
     held: list[int] = []
     original = Pipeline.render
 
-    def render(self: Pipeline, drawing: object, scene: object) -> object:
+    def render(self: Pipeline, drawing: object, scene: object, beside: object) -> object:
         held.append(tracemalloc.get_traced_memory()[0])
-        return original(self, drawing, scene)  # type: ignore[arg-type]
+        return original(self, drawing, scene, beside)  # type: ignore[arg-type]
 
     tracemalloc.start()
     try:

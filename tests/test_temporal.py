@@ -18,7 +18,7 @@ from lampblack.normals.temporal.miniature import Miniature, miniature
 from lampblack.normals.temporal.neighbours import neighbours
 from lampblack.normals.temporal.registration import places_in, rigid_registration
 from lampblack.normals.temporal.rigid import Motion, rigid_motion
-from lampblack.normals.temporal.steady import Steadier
+from lampblack.normals.temporal.steady import ALONE, Around, Steadier
 
 Image = NDArray[np.float32]
 SIZE = 200
@@ -69,6 +69,10 @@ def shot(
     return drawings
 
 
+def beside(shown: list[Miniature], index: int) -> Around:
+    return Around(tuple(shown[max(0, index - 2) : index][::-1]), tuple(shown[index + 1 :][:2]))
+
+
 def test_rigid_motion_is_found_to_a_tenth_of_a_cell() -> None:
     turn, shift = 12.0, (9.0, -14.0)
     here, other = (
@@ -105,11 +109,11 @@ def test_canvases_of_other_sizes_are_laid_over_each_other() -> None:
     )
     places = places_in(here, wide)
     assert np.abs(places - np.indices(places.shape[1:])).max() < 0.05
-    assert np.abs(Steadier().change(here, [wide], [])).max() < 0.01
+    assert np.abs(Steadier().change(here, Around((wide,)))).max() < 0.01
     speck = small(
         "c", lines[95:105, 95:105], np.ones((10, 10), np.float32), normals[95:105, 95:105]
     )
-    assert np.abs(Steadier().change(here, [speck], [speck])).mean() < 0.05
+    assert np.abs(Steadier().change(here, Around((speck,), (speck,)))).mean() < 0.05
 
 
 def test_normals_turn_with_the_drawing() -> None:
@@ -123,19 +127,19 @@ def test_normals_turn_with_the_drawing() -> None:
     here = small("a", lines, mask, sideways)
     other = small("b", turned_lines, turned_mask, turned)
     inside = here.inside > 0.99
-    assert np.abs(Steadier().change(here, [other], []))[:, inside].mean() < 0.01
+    assert np.abs(Steadier().change(here, Around((other,))))[:, inside].mean() < 0.01
     assert np.degrees(rigid_registration(here, other).turn()).mean() == pytest.approx(30, abs=0.5)
 
 
 def test_the_same_drawing_is_left_as_it_is() -> None:
     normals, mask, here = shot(0.1)[3]
-    steadied = Steadier().steady(normals, mask, here, [here, here], [here])
+    steadied = Steadier().steady(normals, mask, here, Around((here, here), (here,)))
     assert angles(steadied, normals)[mask].max() < 0.2
 
 
 def test_alone_nothing_changes() -> None:
     normals, mask, here = shot(0.1)[3]
-    steadied = Steadier().steady(normals, mask, here, [], [])
+    steadied = Steadier().steady(normals, mask, here, ALONE)
     assert angles(steadied, normals)[mask].max() < 0.1
     assert not steadied[~mask].any()
 
@@ -146,13 +150,13 @@ def test_flicker_falls_below_half_and_true_normals_are_kept() -> None:
     before, after = FlickerMeter(steadier), FlickerMeter(steadier)
     minis = [mini for _, _, mini in drawings]
     for i, (normals, mask, here) in enumerate(drawings):
-        around = minis[max(0, i - 2) : i][::-1], minis[i + 1 : i + 3]
-        steadied = steadier.steady(normals, mask, here, *around)
+        around = beside(minis, i)
+        steadied = steadier.steady(normals, mask, here, around)
         assert np.linalg.norm(steadied[mask], axis=1) == pytest.approx(1, abs=1e-5)
         assert not steadied[~mask].any()
         found.append(angles(steadied, bowl(mask.astype(np.float32)))[mask].mean())
         before.add(here)
-        after.add(steadier.steadied(here, *around))
+        after.add(steadier.steadied(here, around))
     raw = [angles(n, bowl(mask.astype(np.float32)))[mask].mean() for n, mask, _ in drawings]
     assert np.mean(found) < 0.75 * np.mean(raw)
     assert before.flicker.motion < 0.6
@@ -169,7 +173,7 @@ def test_even_change_does_not_lag() -> None:
         drawings.append((normals, mask > 0, small(str(index), lines, mask, normals)))
     normals, mask, here = drawings[2]
     minis = [mini for _, _, mini in drawings]
-    steadied = Steadier().steady(normals, mask, here, minis[1::-1], minis[3:])
+    steadied = Steadier().steady(normals, mask, here, beside(minis, 2))
     assert angles(steadied, normals)[mask].mean() < 0.5
 
 
@@ -181,7 +185,7 @@ def test_a_cut_takes_nothing_over() -> None:
     elsewhere = np.zeros_like(normals)
     elsewhere[other_mask] = [0.8, 0, 0.6]
     other = small("cut", edges.astype(np.float32), other_mask.astype(np.float32), elsewhere)
-    steadied = Steadier().steady(normals, mask, here, [other], [other])
+    steadied = Steadier().steady(normals, mask, here, Around((other,), (other,)))
     assert angles(steadied, normals)[mask].mean() < 1.5
 
 
@@ -196,7 +200,7 @@ def test_what_enters_disturbs_nothing_else() -> None:
     both_normals = normals.copy()
     both_normals[ball] = [-0.6, 0, 0.8]
     both = small("two", both_lines.astype(np.float32), both_mask, both_normals)
-    steadied = Steadier().steady(both_normals, both_mask > 0, both, [here], [here])
+    steadied = Steadier().steady(both_normals, both_mask > 0, both, Around((here,), (here,)))
     assert angles(steadied, both_normals)[ball].mean() < 1
     assert angles(steadied, both_normals)[mask > 0].mean() < 1
 
@@ -207,10 +211,7 @@ def test_the_order_of_asking_changes_nothing() -> None:
 
     def all_of(order: list[int]) -> dict[int, Image]:
         steadier = Steadier()
-        return {
-            i: steadier.change(minis[i], minis[max(0, i - 2) : i][::-1], minis[i + 1 : i + 3])
-            for i in order
-        }
+        return {i: steadier.change(minis[i], beside(minis, i)) for i in order}
 
     forwards, backwards = all_of([0, 1, 2, 3, 4]), all_of([4, 0, 3, 1, 2])
     for i, change in forwards.items():

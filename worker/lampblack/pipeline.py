@@ -16,6 +16,8 @@ from .cache import ArrayCache, digest
 from .composite import composite
 from .drawing import Drawing
 from .normals.predict import DEFAULT_GRIDS, NormalPredictor
+from .normals.temporal.miniature import Miniature, miniature
+from .normals.temporal.steady import Beside, Steadier
 from .render import QUALITIES, Passes, RenderChild, frame_request
 from .render.tracings import Tracings
 from .scene import Scene
@@ -53,6 +55,7 @@ class Pipeline:
         self._cache = cache
         self._niceness = niceness
         self._tracings = Tracings()
+        self._steadier = Steadier()
         self.options = options or PipelineOptions()
 
     def __enter__(self) -> Self:
@@ -91,37 +94,68 @@ class Pipeline:
         _ = self._predictor
 
     def normals(
-        self, drawing: Drawing, progress: Callable[[float], None] = lambda share: None
+        self,
+        drawing: Drawing,
+        progress: Callable[[float], None] = lambda share: None,
+        beside: Beside | None = None,
     ) -> NDArray[np.float32]:
-        """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask."""
+        """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask.
+        Steadied if there are drawings ``beside`` this one."""
         key = digest(
             "normals", self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
         )
-        return self._cache.get(
+        predicted = self._cache.get(
             key,
             lambda: self._predictor.predict(
                 drawing.lines, drawing.mask, grids=self.options.grids, progress=progress
             ),
         )
+        if beside is None:
+            return predicted
+        here = self._miniature(drawing, predicted)
+        return self._steadier.steady(predicted, drawing.mask, here, beside.find())
+
+    def miniature(self, drawing: Drawing) -> Miniature:
+        """What the drawings beside this one need of it; about 4 MB."""
+        return self._miniature(drawing, self.normals(drawing))
+
+    def _miniature(self, drawing: Drawing, normals: NDArray[np.float32]) -> Miniature:
+        name = digest(drawing.lines, drawing.mask, drawing.albedo, normals)
+        return miniature(name, drawing.lines, drawing.mask, drawing.albedo, normals)
 
     def height(
-        self, drawing: Drawing, progress: Callable[[float], None] = lambda share: None
+        self,
+        drawing: Drawing,
+        progress: Callable[[float], None] = lambda share: None,
+        beside: Beside | None = None,
     ) -> NDArray[np.float32]:
         """(h, w) float32 height in canvas pixels; the drawing's size, or capped below it."""
-        key = digest("height", self._predictor.identity, self.options, drawing.lines, drawing.mask)
-        return self._cache.get(key, lambda: self._inflate(drawing, progress))
+        made_from = [self._predictor.identity, self.options, drawing.lines, drawing.mask]
+        if beside is not None:
+            made_from += [drawing.albedo, beside.names]
+        key = digest("height", *made_from)
+        return self._cache.get(key, lambda: self._inflate(drawing, progress, beside))
 
-    def _inflate(self, drawing: Drawing, progress: Callable[[float], None]) -> NDArray[np.float32]:
-        normals, mask = self.normals(drawing, progress), drawing.mask
+    def _inflate(
+        self, drawing: Drawing, progress: Callable[[float], None], beside: Beside | None
+    ) -> NDArray[np.float32]:
+        normals, mask = self.normals(drawing, progress, beside), drawing.mask
         step = surface_step(drawing)
         if step > 1:
             normals, mask = _shrink_normals(normals, mask, step)
         height = solve(normals, mask, solver=self.options.solver)
         return guided_filter(height, mask) * np.float32(step)
 
-    def relief(self, drawing: Drawing, *, relief_scale: float = 1.0, stride: int = 1) -> Relief:
+    def relief(
+        self,
+        drawing: Drawing,
+        *,
+        relief_scale: float = 1.0,
+        stride: int = 1,
+        beside: Beside | None = None,
+    ) -> Relief:
         """The figure's closed mesh in canvas pixels, one vertex every ``stride`` pixels."""
-        height, mask = self.height(drawing), drawing.mask
+        height, mask = self.height(drawing, beside=beside), drawing.mask
         step = surface_step(drawing)
         if step > 1:
             mask = mask[step // 2 :: step, step // 2 :: step][: height.shape[0], : height.shape[1]]
@@ -130,24 +164,31 @@ class Pipeline:
         )
         return replace(relief, vertices=relief.vertices * np.float32(step))
 
-    def light(self, drawing: Drawing, scene: Scene) -> Passes:
+    def light(self, drawing: Drawing, scene: Scene, beside: Beside | None = None) -> Passes:
         """Trace the lights of ``scene`` over the drawing's relief, but for those that the last
         call traced over the very same drawing."""
         return self._tracings.complete(
-            drawing, scene, lambda asked, ambient: self._trace(drawing, asked, ambient=ambient)
+            drawing,
+            scene,
+            lambda asked, ambient: self._trace(drawing, asked, beside, ambient=ambient),
         )
 
-    def _trace(self, drawing: Drawing, scene: Scene, *, ambient: bool) -> Passes:
+    def _trace(
+        self, drawing: Drawing, scene: Scene, beside: Beside | None, *, ambient: bool
+    ) -> Passes:
         relief = self.relief(
             drawing,
             relief_scale=scene.relief_scale,
             stride=QUALITIES[scene.quality].mesh_stride,
+            beside=beside,
         )
         return self.child.render(replace(frame_request(drawing, relief, scene), ambient=ambient))
 
-    def render(self, drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
+    def render(
+        self, drawing: Drawing, scene: Scene, beside: Beside | None = None
+    ) -> NDArray[np.uint8]:
         """(H, W, 4) uint8, sRGB, straight alpha: the drawing, lit."""
-        return composite(drawing, self.light(drawing, scene), scene)
+        return composite(drawing, self.light(drawing, scene, beside), scene)
 
 
 def surface_step(drawing: Drawing) -> int:

@@ -22,8 +22,8 @@ from ..normals.dataset.models import find_models
 from ..normals.evaluation.turntable import turntable
 from ..normals.predict import NormalPredictor
 from ..normals.temporal.flicker import FlickerMeter
-from ..normals.temporal.miniature import Miniature, miniature
-from ..normals.temporal.steady import REACH, Steadier
+from ..normals.temporal.miniature import Miniature
+from ..normals.temporal.steady import REACH, Around, Steadier
 from ..pipeline import Pipeline
 from .console import progress_bar
 from .options import open_cache
@@ -69,9 +69,9 @@ def flicker(
 def _animation(inputs: list[str]) -> Rows:
     steadier = Steadier()
     meters = {"predicted": FlickerMeter(steadier), "steadied": FlickerMeter(steadier)}
-    for here, before, after in _in_context(_drawn(inputs)):
+    for here, around in _in_context(_drawn(inputs)):
         meters["predicted"].add(here)
-        meters["steadied"].add(steadier.steadied(here, before, after))
+        meters["steadied"].add(steadier.steadied(here, around))
     return {name: asdict(meter.flicker) for name, meter in meters.items()}
 
 
@@ -89,21 +89,17 @@ def _drawn(inputs: list[str]) -> Iterator[Miniature]:
                 drawing = take_apart(picture)
             except NothingDrawnError:
                 continue
-            yield miniature(
-                name, drawing.lines, drawing.mask, drawing.albedo, pipeline.normals(drawing)
-            )
+            yield pipeline.miniature(drawing)
 
 
-def _in_context(
-    drawn: Iterator[Miniature],
-) -> Iterator[tuple[Miniature, list[Miniature], list[Miniature]]]:
-    """Each with what precedes and follows it, nearest first."""
-    before: list[Miniature] = []
+def _in_context(drawn: Iterator[Miniature]) -> Iterator[tuple[Miniature, Around]]:
+    """Each with what precedes and follows it."""
+    before: tuple[Miniature, ...] = ()
     ahead = list(islice(drawn, REACH + 1))
     while ahead:
         here, *after = ahead
-        yield here, before, after
-        before = [here, *before][:REACH]
+        yield here, Around(before, tuple(after))
+        before = (here, *before)[:REACH]
         ahead = [*after, *islice(drawn, 1)]
 
 

@@ -15,7 +15,6 @@ from .. import __version__
 from ..cache import digest
 from ..camera import look_through
 from ..composite.colour import linear
-from ..drawing import Drawing, take_apart
 from ..errors import LampblackError, LampblackWarning, NothingDrawnError, OutputError
 from ..normals.card import shipped_weights
 from ..pipeline import Pipeline
@@ -26,6 +25,7 @@ from .layers import Layers, make_layers
 from .order import OpenOrder
 from .png import save_png
 from .shot import Cel, ShotFrame, by_drawing
+from .surroundings import Surroundings
 
 Floats = NDArray[np.float32]
 Lit = NDArray[np.uint8] | Layers
@@ -90,9 +90,11 @@ class _Job:
     full: OutputError | None = None
     canvas: Canvas | None = None
     made_by: str = field(init=False)
+    surroundings: Surroundings = field(init=False)
 
     def __post_init__(self) -> None:
         self.made_by = digest(__version__, self.order.options, _weights())
+        self.surroundings = Surroundings(self.order.shot, self.pipeline)
 
 
 @dataclass
@@ -101,7 +103,6 @@ class _Held:
 
     job: _Job
     _cel: Cel | None = None
-    _drawing: Drawing | None = None
     _lit: tuple[Scene, Lit] | None = None
 
     def light(self, frame: ShotFrame) -> None:
@@ -113,7 +114,8 @@ class _Held:
         scene = order.staging.scene(canvas)
         self._check_size(frame, canvas, scene)
         scene = scene_at(scene, self._time(frame))
-        made_from = (self.job.made_by, order.targets.kind, frame.drawing, frame.setting)
+        names = frame.drawing, self.job.surroundings.names(frame), frame.setting
+        made_from = (self.job.made_by, order.targets.kind, *names)
         stamp = digest(*made_from, canvas, encode_scene(scene))
         if not order.again and order.targets.holds(frame, stamp):
             self.job.outcome.kept.append(frame)
@@ -142,16 +144,15 @@ class _Held:
 
     def _render(self, frame: ShotFrame, scene: Scene) -> Lit:
         pipeline = self.job.pipeline
-        if self._drawing is None:
-            cel = self._cel_of(frame)
-            self._drawing = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
-        drawing = self._drawing
+        drawing = self.job.surroundings.drawing(frame)
+        beside = self.job.surroundings.beside(frame)
         if self.job.order.targets.kind == "png":
-            return pipeline.render(drawing, scene)
-        passes = pipeline.light(drawing, scene)
-        return make_layers(
-            drawing, scene, passes, pipeline.normals(drawing), pipeline.height(drawing)
+            return pipeline.render(drawing, scene, beside)
+        passes = pipeline.light(drawing, scene, beside)
+        normals, height = (
+            make(drawing, beside=beside) for make in (pipeline.normals, pipeline.height)
         )
+        return make_layers(drawing, scene, passes, normals, height)
 
     def _write(self, frame: ShotFrame, lit: Lit, stamp: str) -> None:
         shot, target = self.job.order.shot, self.job.order.targets.path(frame)

@@ -132,18 +132,15 @@ def open_shot(order: Order) -> OpenShot:
         read = read or _sidecar(order.inputs[0])
         shot = _project_shot(order, read)
         sources = [Path(order.inputs[0])]
-        frames = _chosen(shot.frames, order.frames)
         single = False  # a frame of a project may well be blank
     else:
         found = find_frames(order.inputs)
         single = len(found) == 1
-        if order.frames is not None:
-            found = select_frames(found, parse_frames(order.frames))
         mask = None if order.mask is None else load_picture(order.mask)
         ink = None if order.ink is None else load_picture(order.ink)
         shot = PictureShot(found, mask, ink)
         sources = [frame.path for frame in found]
-        frames = list(shot.frames)
+    frames = _chosen(shot.frames, order.frames)
     staging = Staging(read, order.lights, order.floor, order.quality)
     return OpenShot(shot, frames, staging, sources, single)
 

@@ -14,7 +14,7 @@ from ..dataset.linework import Hand, draw_lines
 from ..dataset.models import Model, load_model
 from ..predict import NormalPredictor
 from ..temporal.miniature import miniature
-from ..temporal.steady import REACH, Steadier
+from ..temporal.steady import REACH, Around, Steadier
 
 STEP_DEGREES = 5.0
 _ELEVATION = 10.0
@@ -103,8 +103,7 @@ def _steadied(views: Sequence[View], predicted: Sequence[Normals]) -> list[Norma
             normals,
             views[i].seen.mask,
             small[i],
-            small[max(0, i - REACH) : i][::-1],
-            small[i + 1 : i + 1 + REACH],
+            Around(tuple(small[max(0, i - REACH) : i][::-1]), tuple(small[i + 1 :][:REACH])),
         )
         for i, normals in enumerate(predicted)
     ]

@@ -14,7 +14,7 @@ _REACH = 6.0
 """Coarse cells over which the silhouette is felt."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Miniature:
     """About 4 MB, whatever the size of the drawing.
 
@@ -76,7 +76,7 @@ def _features(inside: Planes, lines: Planes, colour: Planes) -> Planes:
         0.5 * np.tanh((signed - np.sign(signed) * 0.5) / _REACH),
         ndimage.gaussian_filter(lines, 0.7),
         2 * ndimage.gaussian_filter(lines, 2.5),
-        *(ndimage.gaussian_filter(plane, 0.7) for plane in colour),
+        *(2 * ndimage.gaussian_filter(plane, 0.7) for plane in colour),
     ]
     stacked: Planes = np.stack(planes).astype(np.float32)
     return stacked

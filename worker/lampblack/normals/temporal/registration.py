@@ -14,11 +14,14 @@ from .rigid import Motion, rigid_motion
 from .sample import sampled
 from .window import Planes
 
-_MISMATCH = 0.12
+_MISMATCH = 0.18
 """Difference of features at which a place is trusted by 1/e."""
-_ASTRAY = 1.5
+_ASTRAY = 2.0
 """Coarse cells by which there and back may miss, likewise."""
 _BLUR = 1.5
+_CUT = 0.2, 0.4
+"""Mean trust over the figure below which the drawings have nothing in common, so that what
+matches does so by chance; and above which they are of one shot."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,11 @@ def registration(here: Miniature, other: Miniature, there: Planes, back: Planes)
     mismatch = ((sampled(other.features, there) - here.features) ** 2).sum(axis=0)
     astray = ((sampled(back, there) - at) ** 2).sum(axis=0)
     doubt = ndimage.gaussian_filter(mismatch / _MISMATCH**2 + astray / _ASTRAY**2, _BLUR)
-    return Registration(there, np.exp(-doubt).astype(np.float32))
+    trust = np.exp(-doubt)
+    inside = here.features[0] > 0
+    likeness = float(trust[inside].mean()) if inside.any() else 0.0
+    trust *= np.clip((likeness - _CUT[0]) / (_CUT[1] - _CUT[0]), 0, 1)
+    return Registration(there, trust.astype(np.float32))
 
 
 def places_in(here: Miniature, other: Miniature) -> Planes:

@@ -9,14 +9,15 @@ order frames are asked for.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .miniature import Miniature
+from .neighbours import Names
 from .registration import Registration, places_in, registration
 from .sample import sampled
 from .window import Planes
@@ -24,6 +25,26 @@ from .window import Planes
 REACH = 2
 """Drawings that are looked at to either side."""
 _KEPT = 16
+
+
+@dataclass(frozen=True)
+class Around:
+    """What precedes and follows a drawing, nearest first; ``REACH`` of each are looked at."""
+
+    before: tuple[Miniature, ...] = ()
+    after: tuple[Miniature, ...] = ()
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What is around a drawing by the ``names`` of its contents, and how to ``find`` it once it
+    is needed."""
+
+    names: Names
+    find: Callable[[], Around]
+
+
+ALONE = Around()
 
 
 class Steadier:
@@ -41,21 +62,19 @@ class Steadier:
         normals: NDArray[np.float32],
         mask: NDArray[np.bool_],
         here: Miniature,
-        before: Sequence[Miniature],
-        after: Sequence[Miniature],
+        around: Around,
     ) -> NDArray[np.float32]:
         """Average one drawing's normals with its neighbours'.
 
         Args:
             normals: (H, W, 3) float32, as predicted. mask: (H, W) bool.
-            here: of this drawing. before, after: of those that precede and follow it, nearest
-                first; ``REACH`` of each are looked at. They may be of other sizes.
+            here: of this drawing. around: of its neighbours, which may be of other sizes.
 
         Returns:
             (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
             Detail finer than the fine grid is the drawing's own.
         """
-        laid, place = here.window.lay(self.change(here, before, after), mask.shape)
+        laid, place = here.window.lay(self.change(here, around), mask.shape)
         inside = mask[place]
         moved = normals[place][inside] + laid[inside]
         moved[:, 2] = np.maximum(moved[:, 2], 1e-3)  # what is seen cannot face away
@@ -63,13 +82,11 @@ class Steadier:
         steadied[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
         return steadied
 
-    def change(
-        self, here: Miniature, before: Sequence[Miniature], after: Sequence[Miniature]
-    ) -> Planes:
+    def change(self, here: Miniature, around: Around) -> Planes:
         """(3, h, w) float32: what brings ``here.vectors`` to the mean, on the fine grid."""
         summed = np.zeros_like(here.vectors)
         weights = np.ones(here.inside.shape, np.float32)
-        for side in (before[:REACH], after[:REACH]):
+        for side in (around.before[:REACH], around.after[:REACH]):
             seen: Registration | None = None
             for near, far in pairwise([here, *side]):
                 step = self.registration(near, far)
@@ -80,11 +97,9 @@ class Steadier:
         changed: Planes = summed / weights
         return changed
 
-    def steadied(
-        self, here: Miniature, before: Sequence[Miniature], after: Sequence[Miniature]
-    ) -> Miniature:
+    def steadied(self, here: Miniature, around: Around) -> Miniature:
         """``here`` with its vectors brought to the mean."""
-        return replace(here, vectors=here.vectors + self.change(here, before, after))
+        return replace(here, vectors=here.vectors + self.change(here, around))
 
     def registration(self, here: Miniature, other: Miniature) -> Registration:
         """``other`` seen from ``here``."""

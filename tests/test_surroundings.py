@@ -1,0 +1,89 @@
+"""Steady normals in a shot: the same whichever frames are lit, found only when needed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conftest import draw_ball
+from lampblack.cache import ArrayCache
+from lampblack.drawing import save_picture
+from lampblack.finals.order import Order, open_shot
+from lampblack.finals.surroundings import Surroundings
+from lampblack.pipeline import Pipeline
+
+
+def ball(number: int) -> np.ndarray:
+    """A ball that rolls on, with a highlight of its own."""
+    picture = np.roll(draw_ball(90), 2 * number, axis=1)
+    picture[30 + number : 36 + number, 40:50, :3] = 250
+    return picture
+
+
+@pytest.fixture
+def shot(tmp_path: Path) -> Order:
+    folder = tmp_path / "walk"
+    folder.mkdir()
+    for number, drawn in enumerate([0, 0, 1, 2, None, 3], start=1):
+        picture = np.zeros((90, 90, 4), np.uint8) if drawn is None else ball(drawn)
+        save_picture(folder / f"walk.{number:04d}.png", picture)
+    return Order(inputs=(str(folder),), output=str(tmp_path / "lit"))
+
+
+def normals_of(order: Order, numbers: list[int], cache: Path) -> dict[int, np.ndarray]:
+    opened = open_shot(order)
+    with Pipeline(ArrayCache(cache)) as pipeline:
+        surroundings = Surroundings(opened.shot, pipeline)
+        frames = {frame.number: frame for frame in opened.frames}
+        return {
+            number: pipeline.normals(
+                surroundings.drawing(frames[number]), beside=surroundings.beside(frames[number])
+            )
+            for number in numbers
+        }
+
+
+def test_any_order_and_any_part_of_a_shot_gives_the_same(shot: Order, tmp_path: Path) -> None:
+    all_of_it = normals_of(shot, [1, 3, 4, 6], tmp_path / "a")
+    backwards = normals_of(shot, [6, 4, 1, 3], tmp_path / "b")
+    part = normals_of(replace_frames(shot, "3-4"), [4, 3], tmp_path / "c")
+    for number, normals in all_of_it.items():
+        assert np.array_equal(normals, backwards[number])
+    for number, normals in part.items():
+        assert np.array_equal(normals, all_of_it[number])
+
+
+def replace_frames(order: Order, frames: str) -> Order:
+    return Order(inputs=order.inputs, output=order.output, frames=frames)
+
+
+def test_neighbours_are_found_only_when_a_surface_is_made(shot: Order, tmp_path: Path) -> None:
+    opened = open_shot(shot)
+    with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
+        surroundings = Surroundings(opened.shot, pipeline)
+        frame = opened.frames[2]
+        drawing, beside = surroundings.drawing(frame), surroundings.beside(frame)
+        assert beside is not None
+        assert [len(side) for side in beside.names] == [1, 2]
+        # A blank frame is a cut: nothing is taken from it or from beyond it.
+        found = beside.find()
+        assert (len(found.before), len(found.after)) == (1, 1)
+        steady = pipeline.height(drawing, beside=beside)
+
+        def unneeded() -> object:
+            raise AssertionError
+
+        known = replace(beside, find=unneeded)
+        assert np.array_equal(pipeline.height(drawing, beside=known), steady)
+        assert not np.array_equal(pipeline.height(drawing), steady)
+
+
+def test_a_drawing_on_its_own_has_no_neighbours(tmp_path: Path) -> None:
+    save_picture(tmp_path / "ball.png", draw_ball(60))
+    order = Order(inputs=(str(tmp_path / "ball.png"),), output=str(tmp_path / "lit"))
+    opened = open_shot(order)
+    with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
+        assert Surroundings(opened.shot, pipeline).beside(opened.frames[0]) is None

@@ -1,0 +1,76 @@
+"""The drawings beside each one of a shot, so that normals hold still over time."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+
+from ..drawing import Drawing, take_apart
+from ..errors import LampblackError
+from ..normals.temporal.miniature import Miniature
+from ..normals.temporal.neighbours import Names, neighbours
+from ..normals.temporal.steady import REACH, Around, Beside
+from ..pipeline import Pipeline
+from .shot import Shot, ShotFrame
+
+_KEPT = 4 * REACH
+_OPEN = REACH + 1
+
+
+class Surroundings:
+    """Finds what is around the drawings of a shot, whichever of its frames are lit.
+
+    The last few drawings are held whole, and a few more in miniature.
+    """
+
+    def __init__(self, shot: Shot, pipeline: Pipeline) -> None:
+        self._shot = shot
+        self._pipeline = pipeline
+        self._frames = {frame.drawing: frame for frame in reversed(shot.frames)}
+        self._names = neighbours([frame.drawing for frame in shot.frames], REACH)
+        self._drawings: OrderedDict[str, Drawing] = OrderedDict()
+        self._small: OrderedDict[str, Miniature] = OrderedDict()
+
+    def names(self, frame: ShotFrame) -> Names:
+        """Of the drawings around that of ``frame``."""
+        return self._names.get(frame.drawing, ((), ()))
+
+    def drawing(self, frame: ShotFrame) -> Drawing:
+        """The drawing of ``frame``, taken apart.
+
+        Raises:
+            DrawingError: it cannot be read, or nothing is drawn on it.
+        """
+        if frame.drawing not in self._drawings:
+            cel = self._shot.cel(frame)
+            self._drawings[frame.drawing] = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
+            if len(self._drawings) > _OPEN:
+                self._drawings.popitem(last=False)
+        self._drawings.move_to_end(frame.drawing)
+        return self._drawings[frame.drawing]
+
+    def beside(self, frame: ShotFrame) -> Beside | None:
+        """The neighbours of the drawing of ``frame``, None if it has none; of those before and
+        after, none beyond one that cannot be used."""
+        names = self.names(frame)
+        return Beside(names, lambda: self._around(frame)) if any(names) else None
+
+    def _around(self, frame: ShotFrame) -> Around:
+        self._miniature(frame.drawing)  # while it is open: the next drawing will ask for it
+        return Around(*(tuple(self._usable(side)) for side in self.names(frame)))
+
+    def _usable(self, names: tuple[str, ...]) -> list[Miniature]:
+        found: list[Miniature] = []
+        for name in names:
+            try:
+                found.append(self._miniature(name))
+            except LampblackError:
+                break
+        return found
+
+    def _miniature(self, name: str) -> Miniature:
+        if name not in self._small:
+            self._small[name] = self._pipeline.miniature(self.drawing(self._frames[name]))
+            if len(self._small) > _KEPT:
+                self._small.popitem(last=False)
+        self._small.move_to_end(name)
+        return self._small[name]
