@@ -12,6 +12,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 import yaml
@@ -21,8 +22,9 @@ from conftest import Run, draw_ball, files
 from lampblack.drawing import load_picture, parse_frames, save_picture
 from lampblack.drawing.sequence import frame_list
 from lampblack.errors import LampblackError
-from lampblack.farm.cluster import check_address
+from lampblack.farm.cluster import check_address, light_group
 from lampblack.farm.tasks import MAX_TASKS, cut_into_tasks
+from lampblack.finals.order import Order
 from lampblack.finals.shot import ShotFrame
 from projects import document, image, layer, png, write_project
 
@@ -180,6 +182,22 @@ def test_a_worker_that_dies_loses_no_frame(
     assert files(out) == {f"walk.{n:04d}.png" for n in range(1, 25)}
     pictures = [load_picture(out / f"walk.{n:04d}.png") for n in range(1, 25)]
     assert all(np.array_equal(pictures[n], pictures[n + 12]) for n in range(12))
+
+
+def test_a_worker_notices_drawings_that_change_between_two_runs(
+    tmp_path: Path, unrendered: list[str]
+) -> None:
+    save_picture(tmp_path / "a.0001.png", draw_ball(64))
+    order = Order(inputs=(str(tmp_path / "a.0001.png"),), output=str(tmp_path / "lit"))
+    order_json = msgspec.json.encode(order)
+    assert light_group(order_json, "first", ["a.0001.png"]) == [("a.0001.png", "done", [])]
+    assert light_group(order_json, "first", ["a.0001.png"]) == [("a.0001.png", "kept", [])]
+    save_picture(tmp_path / "a.0001.png", draw_ball(64, (60, 120, 220)))
+    assert light_group(order_json, "second", ["a.0001.png"]) == [("a.0001.png", "done", [])]
+    (tmp_path / "a.0001.png").write_text("no picture")
+    ((_, became, words),) = light_group(order_json, "third", ["a.0001.png"])
+    assert became == "failed"
+    assert "not a PNG" in words[0]
 
 
 def test_a_cluster_that_is_not_there_is_told(

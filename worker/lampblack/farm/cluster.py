@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import ipaddress
+import secrets
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ from ..errors import LampblackError, OutputError
 from ..finals.light import Listener, Outcome, light_frames
 from ..finals.order import OpenOrder, Order, open_order
 from ..finals.shot import ShotFrame, by_drawing
-from ..pipeline import Pipeline
+from ..pipeline import Pipeline, PipelineOptions
 
 CONNECT_SECONDS = 30
 
@@ -58,6 +59,7 @@ def light_on_cluster(
         ) from error
     check_address(address)
     order_json = msgspec.json.encode(order.absolute())
+    run = secrets.token_hex(8)
     outcome = Outcome()
     try:
         client = Client(  # type: ignore[no-untyped-call]
@@ -72,7 +74,7 @@ def light_on_cluster(
     with client:
         groups = by_drawing(opened.frames)
         futures: dict[Any, list[ShotFrame]] = {
-            client.submit(light_group, order_json, [f.name for f in group], pure=False): group
+            client.submit(light_group, order_json, run, [f.name for f in group], pure=False): group
             for group in groups
         }
         for future in as_completed(futures):  # type: ignore[no-untyped-call]
@@ -98,10 +100,16 @@ def check_address(address: str) -> None:
         )
 
 
-def light_group(order_json: bytes, names: Sequence[str]) -> list[tuple[str, str, list[str]]]:
-    """Runs on a worker: light the named frames; (name, what became of it, error's words) each."""
+def light_group(
+    order_json: bytes, run: str, names: Sequence[str]
+) -> list[tuple[str, str, list[str]]]:
+    """Runs on a worker: light the named frames; (name, what became of it, error's words) each.
+
+    ``run`` names one call of ``light_on_cluster``: between two, drawings may have changed.
+    """
     with _ONE_AT_A_TIME:
-        opened, pipeline = _opened(order_json)
+        opened = _opened(order_json, run)
+        pipeline = _warm_pipeline(opened.options)
         wanted = [frame for frame in opened.frames if frame.name in set(names)]
         outcome = light_frames(opened, pipeline, wanted)
     failed = {frame.name: error for frame, error in outcome.failed}
@@ -122,12 +130,21 @@ def light_group(order_json: bytes, names: Sequence[str]) -> list[tuple[str, str,
 _ONE_AT_A_TIME = threading.Lock()
 
 
+_pipelines: list[Pipeline] = []
+
+
 @functools.lru_cache(maxsize=1)
-def _opened(order_json: bytes) -> tuple[OpenOrder, Pipeline]:
-    """Kept between tasks; the renderer ends with the worker."""
-    opened = open_order(msgspec.json.decode(order_json, type=Order))
-    cache = ArrayCache(user_cache_folder() / "surfaces")
-    return opened, Pipeline(cache, opened.options)
+def _opened(order_json: bytes, run: str) -> OpenOrder:
+    return open_order(msgspec.json.decode(order_json, type=Order))
+
+
+def _warm_pipeline(options: PipelineOptions) -> Pipeline:
+    """The worker's one pipeline, kept between tasks; its renderer ends with the worker."""
+    if _pipelines and _pipelines[0].options != options:
+        _pipelines.pop().rest()
+    if not _pipelines:
+        _pipelines.append(Pipeline(ArrayCache(user_cache_folder() / "surfaces"), options))
+    return _pipelines[0]
 
 
 def _take_in(outcome: Outcome, group: list[ShotFrame], future: Any, listener: Listener) -> None:
