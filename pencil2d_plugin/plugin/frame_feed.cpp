@@ -1,5 +1,7 @@
 #include "plugin/frame_feed.h"
 
+#include "plugin/lit_layer.h"
+
 namespace lampblack
 {
 
@@ -49,17 +51,19 @@ FrameExport FrameFeed::lastExport(int frame) const
 
 QStringList FrameFeed::litLayers() const
 {
-    const QMap<QString, QString> roles = mDocument.layerRoles();
-    if (!roles.values().contains(QStringLiteral("background")))
-        return {};
-    QStringList lit;
-    for (const Layer& layer : mHost.layers())
+    const QVector<Layer> layers = mHost.layers();
+    const QStringList lit = sourceLayers(layers, mDocument.layerRoles());
+    QStringList visible;
+    for (const Layer& layer : layers)
     {
         const bool drawn = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
-        if (drawn && layer.visible && roles.value(layer.name) != QLatin1String("background"))
-            lit.append(layer.name);
+        if (drawn && layer.visible)
+            visible.append(layer.name);
     }
-    return lit;
+    if (lit == visible)
+        return {};
+    // Nothing to light is no layer at all, not every one.
+    return lit.isEmpty() ? QStringList(QString()) : lit;
 }
 
 void FrameFeed::wantAll(int first, int last)
@@ -108,11 +112,14 @@ void FrameFeed::forget(int frame)
 
 void FrameFeed::forgetAll()
 {
-    mFresh.clear();
+    QSet<int> stale;
+    mFresh.swap(stale);
+    stale.insert(mHost.currentFrame());
     mExports.clear();
     mHost.cancelRequests();
     mWorker.dropAllFrames();
-    Q_EMIT staled(mHost.currentFrame());
+    for (const int frame : qAsConst(stale))
+        Q_EMIT staled(frame);
 }
 
 } // namespace lampblack

@@ -6,8 +6,8 @@
 namespace lampblack
 {
 
-ProjectScene::ProjectScene(Host& host, SceneDocument& document, QObject* parent)
-    : QObject(parent), mHost(host), mDocument(document)
+ProjectScene::ProjectScene(Host& host, SceneDocument& document, const LitLayer& layer, QObject* parent)
+    : QObject(parent), mHost(host), mDocument(document), mLayer(layer)
 {
     connect(&host, &Host::projectOpened, this, &ProjectScene::open);
     connect(&host, &Host::projectSaved, this,
@@ -25,20 +25,29 @@ ProjectScene::ProjectScene(Host& host, SceneDocument& document, QObject* parent)
 
 bool ProjectScene::eventFilter(QObject* watched, QEvent* event)
 {
-    if (event->type() != QEvent::Close || watched != mHost.window() || !mDocument.isModified() ||
+    const bool isLosing = mDocument.isModified() || mLayer.isUnsaved();
+    if (event->type() != QEvent::Close || watched != mHost.window() || !isLosing ||
         mHost.projectPath().isEmpty())
         return false;
     // With changes of its own Pencil2D asks to save, and the light is saved with the project.
     if (mHost.isModified())
         return false;
-    const auto answer = QMessageBox::question(
-        mHost.window(), tr("Save the light?"), tr("The light of this project was changed. Save it?"),
-        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
-    const bool stay = answer == QMessageBox::Cancel ||
-                      (answer == QMessageBox::Save && !mDocument.save(mHost.projectPath()));
+    const QString question = mLayer.isUnsaved()
+                                 ? tr("The layer of lit frames is not saved yet. Save the project?")
+                                 : tr("The light of this project was changed. Save it?");
+    const auto answer = QMessageBox::question(mHost.window(), tr("Save the light?"), question,
+                                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
+                                              QMessageBox::Save);
+    const bool stay = answer == QMessageBox::Cancel || (answer == QMessageBox::Save && !save());
     if (stay)
         event->ignore();
     return stay;
+}
+
+bool ProjectScene::save()
+{
+    const bool saved = !mLayer.isUnsaved() || mHost.saveProject();
+    return saved && mDocument.save(mHost.projectPath());
 }
 
 void ProjectScene::open(const QString& path)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/host.h"
+#include "plugin/lit_layer.h"
 #include "scene/scene_document.h"
 
 namespace lampblack
@@ -12,17 +13,20 @@ class ProjectScene : public QObject
     Q_OBJECT
 
 public:
-    ProjectScene(Host& host, SceneDocument& document, QObject* parent = nullptr);
+    ProjectScene(Host& host, SceneDocument& document, const LitLayer& layer, QObject* parent = nullptr);
 
-    /// Asks before the window closes over light that the project's own question would not cover.
+    /// Asks before the window closes over light, or a layer of ours, that the project's own question would
+    /// not cover.
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     void open(const QString& path);
+    bool save();
     void fitCanvas(const QSize& size);
 
     Host& mHost;
     SceneDocument& mDocument;
+    const LitLayer& mLayer;
     bool mFresh = true; ///< nobody has set this scene yet: it may follow the canvas's size
 };
 

@@ -12,8 +12,9 @@ Studio::Studio(Host& host, QObject* parent)
       mTool(std::make_unique<LampTool>(host, *mWorker, mDocument)),
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
       mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mTool)),
-      mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, mDocument)),
-      mProject(std::make_unique<ProjectScene>(host, mDocument)), mRoom(host)
+      mLayer(std::make_unique<LitLayer>(host, mDocument)),
+      mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, *mLayer, mDocument)),
+      mProject(std::make_unique<ProjectScene>(host, mDocument, *mLayer)), mRoom(host)
 {
     setObjectName(QStringLiteral("lampblack"));
     connect(mTool.get(), &LampTool::activeChanged, this, &Studio::follow);
@@ -60,6 +61,7 @@ void Studio::close()
     mView.reset();
     mFeed.reset();
     mProject.reset();
+    mLayer.reset();
     mTool.reset();
     mWorker->stop();
 }
@@ -93,6 +95,20 @@ void Studio::takePalette(int frame, const QVector<Swatch>& swatches)
     mTool->setPalette(all);
 }
 
+FrameRange Studio::chosenRange() const
+{
+    switch (mTool->shotRange())
+    {
+    case ShotRange::Loop:
+        return mHost.loopRange();
+    case ShotRange::Current:
+        return {mHost.currentFrame(), mHost.currentFrame()};
+    case ShotRange::All:
+        break;
+    }
+    return {1, mHost.frameCount()};
+}
+
 void Studio::connectJobs()
 {
     // A job may be asked for before the lamp was ever picked.
@@ -112,7 +128,7 @@ void Studio::connectJobs()
             [this, ready]
             {
                 ready();
-                mJob->renderAll();
+                mJob->render(chosenRange(), mTool->hidesSources());
             });
     connect(mTool.get(), &LampTool::cancelRequested, mJob.get(), &ShotJob::cancel);
     connect(mJob.get(), &ShotJob::problem, mTool.get(), &LampTool::showProblem);

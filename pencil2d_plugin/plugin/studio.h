@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "plugin/dock_room.h"
 #include "plugin/frame_feed.h"
+#include "plugin/lit_layer.h"
 #include "plugin/lit_view.h"
 #include "plugin/project_scene.h"
 #include "plugin/shot_job.h"
@@ -46,6 +47,7 @@ private:
     void send();
     void takePalette(int frame, const QVector<Swatch>& swatches);
     void connectJobs();
+    FrameRange chosenRange() const;
 
     Host& mHost;
     SceneDocument mDocument;
@@ -53,6 +55,7 @@ private:
     std::unique_ptr<LampTool> mTool;
     std::unique_ptr<FrameFeed> mFeed;
     std::unique_ptr<LitView> mView;
+    std::unique_ptr<LitLayer> mLayer;
     std::unique_ptr<ShotJob> mJob;
     std::unique_ptr<ProjectScene> mProject;
     DockRoom mRoom;

@@ -70,7 +70,8 @@ void LampTool::makeTool()
         tr("Drag a light to move it, turn the wheel over it for its height, right-click for more"));
     mRender->setObjectName(QStringLiteral("lampblack.render"));
     mRender->setText(tr("Render All Frames"));
-    mRender->setToolTip(tr("Light every frame at the chosen quality, into image files beside the project"));
+    mRender->setToolTip(tr(
+        "Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the project"));
     connect(mRender, &QAction::triggered, this, &LampTool::renderAllRequested);
     mHost.addAnimationAction(mRender);
     if (mHost.can(Host::Ability::Palette))
@@ -171,8 +172,7 @@ void LampTool::setActive(bool active)
         mInput->setListening(active);
         mKeys->setListening(active);
     }
-    if (active)
-        mHost.showStatus(mTool->statusTip());
+    mHost.showStatus(active ? mTool->statusTip() : QString());
     Q_EMIT activeChanged(active);
 }
 
@@ -188,6 +188,16 @@ void LampTool::setViewMode(ViewMode mode)
     if (mOverlay)
         mOverlay->clearPicture();
     Q_EMIT viewModeChanged(mode);
+}
+
+ShotRange LampTool::shotRange() const
+{
+    return mPanel ? mPanel->render()->range() : ShotRange::All;
+}
+
+bool LampTool::hidesSources() const
+{
+    return mPanel && mPanel->render()->hidesSources();
 }
 
 void LampTool::setFrame(const FrameExport& frame)

@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/canvas/frame_colours.h"
+#include "tool/shot_range.h"
 #include "tool/view_mode.h"
 #include "worker/worker.h"
 
@@ -37,6 +38,8 @@ public:
 
     QAction* toolAction() { return mTool; }
     QAction* renderAction() { return mRender; } ///< "Render All Frames"
+    ShotRange shotRange() const;
+    bool hidesSources() const; ///< once the layer of results is there
 
 public Q_SLOTS:
     /// The drawing in sight: where the colour under the pointer comes from, and its camera, which

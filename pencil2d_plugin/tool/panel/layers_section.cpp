@@ -1,5 +1,7 @@
 #include "tool/panel/layers_section.h"
 
+#include "scene/layer_roles.h"
+
 #include <QComboBox>
 #include <QGridLayout>
 #include <QLabel>
@@ -41,7 +43,8 @@ void LayersSection::refresh()
     const QVector<Layer> layers = mHost.layers();
     for (const Layer& layer : layers)
     {
-        if (layer.kind != Layer::Kind::Bitmap && layer.kind != Layer::Kind::Vector)
+        const bool isDrawing = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
+        if (!isDrawing || isResult(layer.name, roles))
             continue;
         auto* name = new QLabel(mRows);
         name->setTextFormat(Qt::PlainText);
@@ -75,7 +78,7 @@ void LayersSection::setRole(const QString& layer, const QString& role)
     for (const Layer& each : layers)
     {
         const bool isDrawing = each.kind == Layer::Kind::Bitmap || each.kind == Layer::Kind::Vector;
-        if (isDrawing && !roles.contains(each.name))
+        if (isDrawing && !roles.contains(each.name) && !isResult(each.name, roles))
             roles.insert(each.name, Character);
     }
     roles.insert(layer, role);

@@ -1,19 +1,30 @@
 #include "tool/panel/render_section.h"
 
 #include <QAction>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QPainter>
+
+#include <array>
 
 namespace lampblack
 {
 
 RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* parent)
     : Section(QStringLiteral("lampblack.panel.render_section"), tr("Whole animation"), true, parent),
-      mDocument(document), mRender(render), mQuality(new QComboBox(this)),
+      mDocument(document), mRender(render), mRange(new QComboBox(this)), mQuality(new QComboBox(this)),
+      mHide(new QCheckBox(tr("Hide lit layers"), this)),
       mGenerate(new QPushButton(tr("Generate Surfaces"), this)),
       mRenderAll(new QPushButton(tr("Render All Frames"), this)), mSurfaceBar(new QProgressBar(this)),
       mRenderBar(new QProgressBar(this)), mCancel(new QPushButton(tr("Cancel"), this))
 {
+    mRange->setObjectName(QStringLiteral("lampblack.panel.range"));
+    mRange->setAccessibleName(tr("Frames to render"));
+    mRange->setToolTip(tr("The loop is the range set in the timeline."));
+    mRange->addItems({tr("All"), tr("Loop"), tr("Current")});
+    mRange->setFocusPolicy(Qt::StrongFocus);
+    mHide->setObjectName(QStringLiteral("lampblack.panel.hide"));
+    mHide->setToolTip(tr("Once every frame is in the layer \"Lit\", hide the layers that it was lit from."));
     mQuality->setObjectName(QStringLiteral("lampblack.panel.quality"));
     mQuality->setAccessibleName(tr("Quality of rendered frames"));
     mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
@@ -35,19 +46,23 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
         button->setAutoDefault(false);
         button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     }
-    auto* quality = new QHBoxLayout;
-    quality->addWidget(new QLabel(tr("Quality"), this));
-    quality->addStretch(1);
-    quality->addWidget(mQuality);
+    auto* choices = new QGridLayout;
+    choices->setColumnStretch(0, 1);
+    choices->addWidget(new QLabel(tr("Frames"), this), 0, 0);
+    choices->addWidget(mRange, 0, 1);
+    choices->addWidget(new QLabel(tr("Quality"), this), 1, 0);
+    choices->addWidget(mQuality, 1, 1);
     body()->addWidget(mGenerate);
     body()->addWidget(mSurfaceBar);
-    body()->addLayout(quality);
+    body()->addLayout(choices);
+    body()->addWidget(mHide);
     body()->addWidget(mRenderAll);
     body()->addWidget(mRenderBar);
     body()->addWidget(mCancel);
     connect(mGenerate, &QPushButton::clicked, this, &RenderSection::generateSurfacesRequested);
     connect(mRenderAll, &QPushButton::clicked, &render, &QAction::trigger);
     connect(mCancel, &QPushButton::clicked, this, &RenderSection::cancelRequested);
+    connect(mRange, qOverload<int>(&QComboBox::currentIndexChanged), this, &RenderSection::nameRange);
     connect(mQuality, qOverload<int>(&QComboBox::activated), this,
             [this](int index)
             {
@@ -59,6 +74,13 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     setSurfaceProgress(0, 0);
     setRenderProgress(0, 0);
     refresh();
+}
+
+void RenderSection::nameRange()
+{
+    const std::array<QString, 3> names{tr("Render All Frames"), tr("Render Loop"), tr("Render This Frame")};
+    mRenderAll->setText(names[size_t(range())]);
+    mRender.setText(names[size_t(range())]);
 }
 
 void RenderSection::refresh()

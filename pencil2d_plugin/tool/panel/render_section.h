@@ -3,8 +3,10 @@
 
 #include "scene/scene_document.h"
 #include "tool/panel/section.h"
+#include "tool/shot_range.h"
 #include "worker/worker.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QProgressBar>
@@ -25,17 +27,23 @@ public:
     void setSurfaceProgress(int done, int total);
     void setRenderProgress(int done, int total);
 
+    ShotRange range() const { return static_cast<ShotRange>(mRange->currentIndex()); }
+    bool hidesSources() const { return mHide->isChecked(); }
+
 Q_SIGNALS:
     void generateSurfacesRequested();
     void cancelRequested();
 
 private:
     void refresh();
+    void nameRange();
     void setProgress(QProgressBar* bar, int done, int total);
 
     SceneDocument& mDocument;
     QAction& mRender;
+    QComboBox* mRange;
     QComboBox* mQuality;
+    QCheckBox* mHide;
     QPushButton* mGenerate;
     QPushButton* mRenderAll;
     QProgressBar* mSurfaceBar;

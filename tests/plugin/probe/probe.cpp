@@ -35,6 +35,11 @@ QObject* named(const QString& name)
         if (auto* found = top->findChild<QObject*>(name))
             return found;
     }
+    // Actions may belong to nobody in the window, but to its menus.
+    for (const QWidget* widget : QApplication::allWidgets())
+        for (QAction* action : widget->actions())
+            if (action->objectName() == name)
+                return action;
     return qApp->findChild<QObject*>(name);
 }
 

@@ -1,0 +1,62 @@
+#include "plugin/backup.h"
+
+#include <QDir>
+#include <QDirIterator>
+#include <QFileInfo>
+#include <QSaveFile>
+
+namespace lampblack
+{
+
+namespace
+{
+
+const QString DataEnding = QStringLiteral(".data"); ///< of the folder beside an old project
+
+QString copyWhole(const QString& from, const QString& to)
+{
+    constexpr qint64 Piece = 1 << 20;
+    QFile source(from);
+    QSaveFile target(to);
+    if (!source.open(QFile::ReadOnly))
+        return QStringLiteral("%1: %2").arg(from, source.errorString());
+    if (!target.open(QFile::WriteOnly))
+        return QStringLiteral("%1: %2").arg(to, target.errorString());
+    while (!source.atEnd())
+    {
+        const QByteArray piece = source.read(Piece);
+        if (piece.isEmpty() || target.write(piece) != piece.size())
+            return QStringLiteral("%1: %2 %3").arg(to, source.errorString(), target.errorString());
+    }
+    return target.commit() ? QString() : QStringLiteral("%1: %2").arg(to, target.errorString());
+}
+
+QString copyFolder(const QString& from, const QString& to)
+{
+    QDirIterator files(from, QDir::Files);
+    while (files.hasNext())
+    {
+        const QString file = files.next();
+        if (!QDir().mkpath(to))
+            return to;
+        if (const QString fault = copyWhole(file, QDir(to).filePath(files.fileName())); !fault.isEmpty())
+            return fault;
+    }
+    return {};
+}
+
+} // namespace
+
+QString backupOf(const QString& project)
+{
+    const QFileInfo file(project);
+    return file.dir().filePath(file.completeBaseName() + QStringLiteral(".backup.") + file.suffix());
+}
+
+QString backUp(const QString& project)
+{
+    const QString fault = copyFolder(project + DataEnding, backupOf(project) + DataEnding);
+    return fault.isEmpty() ? copyWhole(project, backupOf(project)) : fault;
+}
+
+} // namespace lampblack
