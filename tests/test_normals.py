@@ -8,7 +8,7 @@ import torch
 import trimesh
 from numpy.typing import NDArray
 
-from lampblack.normals.card import NetworkCard
+from lampblack.normals.card import NetworkCard, load_network, shipped_weights
 from lampblack.normals.dataset.gbuffer import MARGIN, trace, view_rotation
 from lampblack.normals.dataset.linework import Hand, draw_lines
 from lampblack.normals.dataset.models import Model
@@ -235,10 +235,13 @@ def test_nothing_drawn_predicts_nothing() -> None:
         predictor.predict(np.zeros((30, 21), np.float32), mask)
 
 
-def test_tiles_of_the_papers_network_stay_available() -> None:
-    mask, truth = ball(200, 80.0)
-    found = NormalPredictor().predict(np.zeros(mask.shape, np.float32), mask, grids=2)
-    assert angles(found, truth)[mask].mean() < 30
+def test_grids_ask_the_papers_network() -> None:
+    mask, _ = ball(200, 80.0)
+    lines = (mask & ~erode(mask)).astype(np.float32)
+    whole, tiled = (NormalPredictor().predict(lines, mask, grids=grids) for grids in (0, 1))
+    paper = NormalPredictor(*load_network(shipped_weights("dilated-unet")))
+    assert np.array_equal(tiled, paper.predict(lines, mask, grids=1))
+    assert not np.array_equal(tiled, whole)
 
 
 def test_shipped_network_rounds_a_ball() -> None:

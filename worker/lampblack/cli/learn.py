@@ -95,8 +95,8 @@ def evaluate(
         str,
         typer.Option(
             "--methods",
-            help="Of lampblack, paper, flat, laigter, laigter-tuned, inflate, lumo, lumo-mixed, "
-            "or NAME=FILE.safetensors; the others are compared with the first.",
+            help="Of lampblack, paper, flat, laigter, laigter-tuned, inflate, "
+            "lumo, lumo-mixed, or NAME=FILE.safetensors; the others are compared with the first.",
         ),
     ] = "lampblack,paper,flat,laigter,laigter-tuned,inflate,lumo,lumo-mixed",
     views: Annotated[int, typer.Option(min=1, max=64, help="Sides of each model.")] = 8,
@@ -159,6 +159,6 @@ def _method(named: str) -> tuple[str, Method]:
     if name not in PEERS:
         raise LampblackError(
             f"There is no method {name!r}.",
-            f"Known: lampblack, paper, {', '.join(PEERS)}, or NAME=FILE.safetensors.",
+            f"Known: lampblack, paper, {', '.join(PEERS)} or NAME=FILE.",
         )
     return name, PEERS[name]

@@ -80,10 +80,7 @@ InkOption = Annotated[
 GridsOption = Annotated[
     int,
     typer.Option(
-        "--grids",
-        min=0,
-        max=64,
-        help="0: the whole figure at once; else the paper's grids of tiles.",
+        "--grids", min=0, max=64, help="0: the whole figure at once; else the paper's grids."
     ),
 ]
 SolverOption = Annotated[Solver, typer.Option("--solver", help="How normals become a surface.")]

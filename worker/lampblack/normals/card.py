@@ -43,7 +43,7 @@ class NetworkCard:
     measured: dict[str, Any] | None = None
 
 
-def shipped_weights(architecture: str = "dilated-unet") -> Path:
+def shipped_weights(architecture: str = "figure-net") -> Path:
     """The weights that come with Lampblack."""
     return Path(__file__).parent / "weights" / f"{architecture}.safetensors"
 

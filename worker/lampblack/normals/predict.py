@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 import torch
@@ -16,43 +17,33 @@ from .card import NetworkCard, load_network, shipped_weights
 from .figure import resize
 from .networks import FigureNet
 from .predict_figure import figure_vectors
-from .predict_tiles import MAX_GRIDS, TILE_GRIDS, tile_vectors
+from .predict_tiles import MAX_GRIDS, tile_vectors
 
 DEFAULT_GRIDS = 0
 """The whole figure at once."""
 
+_TILE_GRIDS = 5
+
 
 class NormalPredictor:
-    """Trained networks, ready to predict. Loads the shipped weights by default.
+    """A trained network, ready to predict. Loads the shipped weights by default.
 
     ``identity`` names the weights, so that results can be kept for as long as they hold.
 
     Args:
         network, card: another network than the shipped one.
-        mirrored: see ``figure_vectors``.
 
     Raises:
         LampblackError: the weights cannot be used (see ``load_network``).
     """
 
-    def __init__(
-        self,
-        network: nn.Module | None = None,
-        card: NetworkCard | None = None,
-        *,
-        mirrored: bool = True,
-    ) -> None:
+    def __init__(self, network: nn.Module | None = None, card: NetworkCard | None = None) -> None:
         if network is None or card is None:
             network, card = load_network()
         self._network = network.to(memory_format=torch.channels_last).eval()  # type: ignore[call-overload]
-        self._mirrored = mirrored
-        self._tiles: NormalPredictor | None = None
         self.card = card
-        self.identity = digest(
-            __version__,
-            card,
-            mirrored,
-            *(tensor.numpy() for tensor in self._network.state_dict().values()),
+        self.identity: str = digest(
+            __version__, card, *(tensor.numpy() for tensor in self._network.state_dict().values())
         )
 
     def predict(
@@ -84,7 +75,7 @@ class NormalPredictor:
             raise ValueError(f"grids must be 0 to {MAX_GRIDS}, not {grids}")
         whole = isinstance(self._network, FigureNet)
         if whole and grids:
-            return self._paper().predict(lines, mask, grids=grids, progress=progress)
+            return self._paper.predict(lines, mask, grids=grids, progress=progress)
         normals = np.zeros((*mask.shape, 3), np.float32)
         if not mask.any():
             return normals
@@ -93,32 +84,23 @@ class NormalPredictor:
         box = _bounding_box(mask)
         figure_lines, figure_mask, inner = _past_the_canvas(lines[box], mask[box], box, mask.shape)
         if whole:
-            vectors, small_mask = figure_vectors(
-                self._network,
-                self.card.figure_px[1],
-                figure_lines,
-                figure_mask,
-                mirrored=self._mirrored,
-            )
+            side = self.card.figure_px[1]
+            vectors, seen = figure_vectors(self._network, side, figure_lines, figure_mask)
         else:
             scale = self._scale(max(figure_mask.shape))
-            small_lines, small_mask = _resize_figure(figure_lines, figure_mask, scale)
-            vectors = tile_vectors(
-                self._network, small_lines, small_mask, grids or TILE_GRIDS, progress
-            )
-        vectors = _extend_outside(_round_off(vectors, self.card.roundness), small_mask)
+            small_lines, seen = _resize_figure(figure_lines, figure_mask, scale)
+            vectors = tile_vectors(self._network, small_lines, seen, grids or _TILE_GRIDS, progress)
+        vectors = _extend_outside(_round_off(vectors, self.card.roundness), seen)
         vectors = resize(vectors, figure_mask.shape)[inner]
-        figure_mask = figure_mask[inner]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
-        normals[box] = vectors * figure_mask[..., None]
+        normals[box] = vectors * figure_mask[inner][..., None]
         progress(1.0)
         return normals
 
+    @cached_property
     def _paper(self) -> NormalPredictor:
-        if self._tiles is None:
-            self._tiles = NormalPredictor(*load_network(shipped_weights("dilated-unet")))
-        return self._tiles
+        return NormalPredictor(*load_network(shipped_weights("dilated-unet")))
 
     def _scale(self, long_side: int) -> float:
         smallest, largest = self.card.figure_px

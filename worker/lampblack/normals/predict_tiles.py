@@ -12,7 +12,6 @@ from torch import nn
 from .tiles import TILE, TileSource, diagonal_grids
 
 PAPER_GRIDS = 20
-TILE_GRIDS = 5
 MAX_GRIDS = 64
 _BATCH = 8
 

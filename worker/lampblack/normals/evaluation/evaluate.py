@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...errors import LampblackError
 from ..card import load_network
 from ..dataset.models import find_models
-from ..predict import NormalPredictor
+from ..predict import DEFAULT_GRIDS, NormalPredictor
 from ..silhouette import flat_normals, inflated_normals, lumo_normals
 from .drawings import Lines, TestDrawing, drawings
 from .laigter import laigter_normals
@@ -33,9 +33,8 @@ PEERS: dict[str, Method] = {
 """Each maps (lines (H, W), mask (H, W)) to normals (H, W, 3), and learns nothing."""
 
 
-def network_method(weights: Path | None, grids: int = 0) -> Method:
-    """The shipped network, or that of a ``.safetensors`` file, on ``grids`` of tiles (0: its
-    default)."""
+def network_method(weights: Path | None, grids: int = DEFAULT_GRIDS) -> Method:
+    """The shipped network, or that of a ``.safetensors`` file; ``grids`` as in ``predict``."""
     predictor = NormalPredictor(*load_network(weights)) if weights else NormalPredictor()
     return lambda lines, mask: predictor.predict(lines, mask, grids=grids)
 
