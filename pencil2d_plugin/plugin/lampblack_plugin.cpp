@@ -14,8 +14,6 @@ namespace lampblack
 class WindowWatch : public QObject
 {
 public:
-    using QObject::QObject;
-
     bool eventFilter(QObject* watched, QEvent* event) override
     {
         if (event->type() == QEvent::Show && qobject_cast<QMainWindow*>(watched) != nullptr)
@@ -30,12 +28,17 @@ public:
 private:
     void begin()
     {
-        Host* host = createHost(this);
+        Host* host = createHost(qApp);
         if (host == nullptr)
             return;
-        auto* studio = new Studio(*host, this);
+        auto* studio = new Studio(*host, qApp);
         // Widgets of ours die with the window: what binds to them must be gone before.
-        connect(qApp, &QCoreApplication::aboutToQuit, studio, &Studio::close);
+        connect(qApp, &QCoreApplication::aboutToQuit, this,
+                [host, studio]
+                {
+                    delete studio;
+                    delete host;
+                });
     }
 };
 
@@ -49,7 +52,8 @@ public:
     {
         if (key != QLatin1String("lampblack") || qobject_cast<QApplication*>(qApp) == nullptr)
             return nullptr;
-        auto* watch = new WindowWatch(qApp);
+        // Qt deletes what we return, last of all: a parent would have done so before.
+        auto* watch = new WindowWatch;
         qApp->installEventFilter(watch);
         return watch;
     }

@@ -276,7 +276,7 @@ public:
         // The application object is being made: wait until it and its window are there.
         QMetaObject::invokeMethod(
             qApp, [this, name] { mProbe = std::make_unique<Probe>(name); }, Qt::QueuedConnection);
-        return new QObject(qApp);
+        return new QObject; // Qt deletes it
     }
 
 private:
