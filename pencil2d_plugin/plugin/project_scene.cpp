@@ -32,10 +32,11 @@ bool ProjectScene::eventFilter(QObject* watched, QEvent* event)
     // With changes of its own Pencil2D asks to save, and the light is saved with the project.
     if (mHost.isModified())
         return false;
-    const QString question = mLayer.isUnsaved()
-                                 ? tr("The layer of lit frames is not saved yet. Save the project?")
-                                 : tr("The light of this project was changed. Save it?");
-    const auto answer = QMessageBox::question(mHost.window(), tr("Save the light?"), question,
+    const QString title = mLayer.isUnsaved() ? tr("Save the lit layer?") : tr("Save the light?");
+    const QString question =
+        mLayer.isUnsaved() ? tr("The project has a new layer of lit frames, not saved yet. Save the project?")
+                           : tr("The light of this project was changed. Save it?");
+    const auto answer = QMessageBox::question(mHost.window(), title, question,
                                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
                                               QMessageBox::Save);
     const bool stay = answer == QMessageBox::Cancel || (answer == QMessageBox::Save && !save());
