@@ -108,3 +108,18 @@ def test_lit_layer_is_in_the_saved_project(display: Display, tmp_path: Path) -> 
         assert np.abs(premultiplied(lit[frame]) - premultiplied(made)).max() <= 2
     now = keys(project, "Lamplighter")
     assert all(np.array_equal(now[frame], drawn[frame]) for frame in drawn)
+
+
+def test_closing_asks_for_the_layer(display: Display, tmp_path: Path) -> None:
+    project = project_in(tmp_path)
+    with pencil2d(display, tmp_path / "window", project) as window:
+        window.set("lampblack.panel.range", "currentIndex", 2)
+        light_up(window)
+        render(window)
+        window.trigger("actionExit")
+        wait_until(lambda: window.of_class("QMessageBox"), "a question")
+        keep(window, "unsaved layer")
+        window.key("Return")
+        assert window.process.wait(30) == 0
+    assert sorted(keys(project, "Lit")) == [1, 2]
+    assert sidecar(project).exists()

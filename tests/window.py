@@ -148,14 +148,14 @@ class Pencil2D:
         self.display.do("windowactivate", "--sync", self.window)
 
     def close(self) -> None:
-        """End it without a question, and see that it had not died before."""
+        """End it without a question, if it is still there, and see that it had not died."""
         died = self.process.poll()
         self._probe.close()
         if died is None:
             self.process.send_signal(signal.SIGKILL)
             self.process.wait(10)
         self._output.close()
-        assert died is None, f"Pencil2D ended with {died}:\n{self.log.read_text()[-3000:]}"
+        assert not died, f"Pencil2D ended with {died}:\n{self.log.read_text()[-3000:]}"
 
     def find(self, name: str) -> dict[str, Any]:
         """What the probe says of the object called ``name``; empty if there is none."""
