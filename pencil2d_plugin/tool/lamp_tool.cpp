@@ -130,8 +130,8 @@ void LampTool::makeCanvas()
     connect(&mHost, &Host::playingChanged, mOverlay.data(),
             [this](bool playing) { mOverlay->setHandlesShown(!playing); });
     connect(mInput, &CanvasInput::menuRequested, mMenu.data(),
-            [this](const QPointF& canvas, const QPoint& global)
-            { mMenu->openAt(canvas, global, mColours.at(canvas)); });
+            [this](const QPointF& canvas, const QPoint& global, int light)
+            { mMenu->openAt(canvas, global, light, mColours.at(canvas)); });
     connect(mInput, &CanvasInput::pointed, this, &LampTool::point);
     connect(mInput, &CanvasInput::left, this,
             [this]

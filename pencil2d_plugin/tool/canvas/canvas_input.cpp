@@ -165,7 +165,7 @@ bool CanvasInput::press(const Pointer& pointer)
         const Handle handle = mOverlay.handles().at(pointer.position);
         if (handle.light >= 0)
             mDocument.selectLight(handle.light);
-        Q_EMIT menuRequested(onCanvas(pointer.position), pointer.global);
+        Q_EMIT menuRequested(onCanvas(pointer.position), pointer.global, handle.light);
         return true;
     }
     if (pointer.button != Qt::LeftButton)

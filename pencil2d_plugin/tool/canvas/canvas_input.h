@@ -42,7 +42,8 @@ Q_SIGNALS:
     /// The pointer is over a point of the canvas, canvas pixels.
     void pointed(const QPointF& canvas);
     void left();
-    void menuRequested(const QPointF& canvas, const QPoint& global);
+    /// `light` is the light there, or -1.
+    void menuRequested(const QPointF& canvas, const QPoint& global, int light);
     void picked(const QPointF& canvas);
     void pickingChanged(bool picking);
 

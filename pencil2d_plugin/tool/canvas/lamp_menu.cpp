@@ -19,9 +19,9 @@ LampMenu::LampMenu(SceneDocument& document, QWidget* parent) : QMenu(parent), mD
     setObjectName(QStringLiteral("lampblack.menu"));
 }
 
-void LampMenu::openAt(const QPointF& canvas, const QPoint& global, const QString& colour)
+void LampMenu::openAt(const QPointF& canvas, const QPoint& global, int light, const QString& colour)
 {
-    fill(canvas, colour);
+    fill(canvas, light, colour);
     popup(global);
 }
 
@@ -33,7 +33,7 @@ QAction* LampMenu::add(const char* name, const QString& text, const std::functio
     return action;
 }
 
-void LampMenu::fill(const QPointF& canvas, const QString& colour)
+void LampMenu::fill(const QPointF& canvas, int light, const QString& colour)
 {
     clear();
     const Scene& scene = mDocument.scene();
@@ -48,12 +48,10 @@ void LampMenu::fill(const QPointF& canvas, const QString& colour)
     addLight->setEnabled(scene.lights.size() < MaxLights);
     if (!addLight->isEnabled())
         addLight->setText(tr("Add a Light Here (%1 at most)").arg(MaxLights));
-    const int selected = mDocument.selectedLight();
-    if (selected >= 0 && selected < scene.lights.size())
+    if (light >= 0 && light < scene.lights.size())
     {
-        add("delete_light", tr("Delete Light %1").arg(selected + 1),
-            [this, selected]
-            { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), selected)); });
+        add("delete_light", tr("Delete Light %1").arg(light + 1),
+            [this, light] { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), light)); });
     }
     addSeparator();
     add("floor", scene.floor ? tr("Move the Floor Here") : tr("Put a Floor Here"),

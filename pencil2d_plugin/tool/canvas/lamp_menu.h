@@ -17,14 +17,15 @@ class LampMenu : public QMenu
 public:
     LampMenu(SceneDocument& document, QWidget* parent);
 
-    /// `canvas` is the place in canvas pixels; `colour` the flat colour there, "#rrggbb" or empty.
-    void openAt(const QPointF& canvas, const QPoint& global, const QString& colour);
+    /// `canvas` is the place in canvas pixels; `light` the light there, or -1; `colour` the flat colour
+    /// there, "#rrggbb" or empty.
+    void openAt(const QPointF& canvas, const QPoint& global, int light, const QString& colour);
 
 Q_SIGNALS:
     void editMaterialRequested(const QString& colour);
 
 private:
-    void fill(const QPointF& canvas, const QString& colour);
+    void fill(const QPointF& canvas, int light, const QString& colour);
     void fillMaterial(const QString& colour);
     QAction* add(const char* name, const QString& text, const std::function<void()>& act);
 

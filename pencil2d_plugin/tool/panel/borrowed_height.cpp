@@ -1,6 +1,7 @@
 #include "tool/panel/borrowed_height.h"
 
 #include <QMainWindow>
+#include <QTimer>
 
 #include <algorithm>
 
@@ -25,69 +26,85 @@ QMainWindow* windowOf(const QDockWidget* dock)
     return dock == nullptr || dock->isFloating() ? nullptr : qobject_cast<QMainWindow*>(dock->parentWidget());
 }
 
-/// The docks above and below `dock` and itself, from above.
-QList<QDockWidget*> columnOf(const QMainWindow& window, const QDockWidget& dock)
+/// The docks at the sides of the window, from below.
+QList<QDockWidget*> docksBeside(const QMainWindow& window)
 {
-    QList<QDockWidget*> column;
+    QList<QDockWidget*> beside;
     const auto docks = window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
-    for (QDockWidget* other : docks)
+    for (QDockWidget* dock : docks)
     {
-        const bool overlaps = other->x() < dock.x() + dock.width() && dock.x() < other->x() + other->width();
-        if (other->isVisible() && !other->isFloating() && overlaps &&
-            window.dockWidgetArea(other) == window.dockWidgetArea(const_cast<QDockWidget*>(&dock)))
-            column << other;
+        const Qt::DockWidgetArea area = window.dockWidgetArea(dock);
+        if (dock->isVisible() && !dock->isFloating() &&
+            (area == Qt::LeftDockWidgetArea || area == Qt::RightDockWidgetArea))
+            beside << dock;
     }
-    std::sort(column.begin(), column.end(),
-              [](const QDockWidget* a, const QDockWidget* b) { return a->y() < b->y(); });
-    return column;
+    std::sort(beside.begin(), beside.end(),
+              [](const QDockWidget* a, const QDockWidget* b) { return a->y() > b->y(); });
+    return beside;
+}
+
+bool isBelow(const QDockWidget& dock, const QDockWidget& other)
+{
+    return dock.y() > other.y() && dock.x() < other.x() + other.width() &&
+           other.x() < dock.x() + dock.width();
 }
 
 } // namespace
 
 void BorrowedHeight::borrow(const QWidget& page, int wanted)
 {
-    mBefore.clear();
+    mNeighbours.clear();
     mDock = dockAround(page);
     QMainWindow* window = windowOf(mDock);
     if (window == nullptr)
         return;
-    const QList<QDockWidget*> column = columnOf(*window, *mDock);
-    const int place = column.indexOf(mDock);
-    QList<int> heights;
-    for (QDockWidget* dock : column)
+    // Those on the other side are told to stay: a dock that is not spoken of may be moved.
+    const int asked = std::max(mDock->height(), mLast > 0 ? mLast : std::min(wanted, window->height() / 2));
+    int missing = asked - mDock->height();
+    const QList<QDockWidget*> docks = docksBeside(*window);
+    const int own = docks.indexOf(mDock);
+    if (own < 0)
+        return; // along the top or bottom edge
+    for (QDockWidget* dock : docks)
     {
-        mBefore << Neighbour{dock, dock->height()};
-        heights << dock->height();
+        const int spare = std::max(0, dock->height() - dock->minimumSizeHint().height());
+        const int lent = isBelow(*dock, *mDock) ? std::min(missing, spare) : 0;
+        missing -= lent;
+        mNeighbours << Neighbour{dock, dock->height(), dock->height() - lent};
     }
-    const int asked = mLast > 0 ? mLast : std::min(wanted, window->height() / 2);
-    for (int below = column.size() - 1; below > place; --below)
-    {
-        const int spare = heights[below] - column[below]->minimumSizeHint().height();
-        const int lent = std::clamp(asked - heights[place], 0, std::max(0, spare));
-        heights[below] -= lent;
-        heights[place] += lent;
-    }
-    window->resizeDocks(column, heights, Qt::Vertical);
+    mNeighbours[own].wanted = asked - missing;
+    resize(&Neighbour::wanted);
 }
 
 void BorrowedHeight::giveBack()
 {
-    QMainWindow* window = windowOf(mDock);
-    if (window != nullptr && !mBefore.isEmpty())
-    {
+    if (mDock != nullptr && !mNeighbours.isEmpty() && !mDock->isFloating())
         mLast = mDock->height();
+    resize(&Neighbour::before);
+    mNeighbours.clear();
+}
+
+void BorrowedHeight::resize(int Neighbour::*height)
+{
+    QMainWindow* window = windowOf(mDock);
+    if (window == nullptr)
+        return;
+    const auto apply = [window, column = mNeighbours, height]
+    {
         QList<QDockWidget*> docks;
         QList<int> heights;
-        for (const Neighbour& neighbour : qAsConst(mBefore))
+        for (const Neighbour& neighbour : column)
         {
             if (!neighbour.dock || neighbour.dock->isFloating())
                 continue;
             docks << neighbour.dock;
-            heights << neighbour.height;
+            heights << neighbour.*height;
         }
         window->resizeDocks(docks, heights, Qt::Vertical);
-    }
-    mBefore.clear();
+    };
+    apply();
+    // Where several docks change at once, Qt brings them to their heights only the second time.
+    QTimer::singleShot(0, window, apply);
 }
 
 } // namespace lampblack

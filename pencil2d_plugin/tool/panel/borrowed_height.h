@@ -23,12 +23,14 @@ private:
     struct Neighbour
     {
         QPointer<QDockWidget> dock;
-        int height = 0;
+        int before = 0;
+        int wanted = 0;
     };
+    void resize(int Neighbour::*height);
 
     QPointer<QDockWidget> mDock;
-    QVector<Neighbour> mBefore; ///< the dock's column, from above
-    int mLast = 0;
+    QVector<Neighbour> mNeighbours; ///< and the dock itself, while it borrows
+    int mLast = 0;                  ///< height that the artist left it with
 };
 
 } // namespace lampblack

@@ -27,9 +27,9 @@ private:
     SceneDocument mDocument;
     LampMenu mMenu{mDocument, nullptr};
 
-    void choose(const char* name, const QString& colour = QString())
+    void choose(const char* name, const QString& colour = QString(), int light = -1)
     {
-        mMenu.openAt({120, 80}, QPoint(), colour);
+        mMenu.openAt({120, 80}, QPoint(), light, colour);
         QAction* action = entry(mMenu, name);
         QVERIFY2(action != nullptr, name);
         action->trigger();
@@ -52,17 +52,18 @@ private Q_SLOTS:
     {
         for (int light = 1; light < MaxLights; ++light)
             choose("add_light");
-        mMenu.openAt({}, QPoint(), QString());
+        mMenu.openAt({}, QPoint(), -1, QString());
         QVERIFY(!entry(mMenu, "add_light")->isEnabled());
         mMenu.close();
     }
 
-    void deletesTheSelectedLight()
+    void deletesTheLightThatItWasOpenedOn()
     {
-        mDocument.selectLight(0);
-        choose("delete_light");
-        QVERIFY(mDocument.scene().lights.isEmpty());
-        mMenu.openAt({}, QPoint(), QString());
+        choose("add_light");
+        const AreaLight second = mDocument.scene().lights[1];
+        choose("delete_light", QString(), 0);
+        QCOMPARE(mDocument.scene().lights, QVector<AreaLight>{second});
+        mMenu.openAt({}, QPoint(), -1, QString());
         QVERIFY(entry(mMenu, "delete_light") == nullptr);
         mMenu.close();
     }
