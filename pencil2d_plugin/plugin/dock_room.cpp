@@ -7,28 +7,8 @@ namespace lampblack
 
 namespace
 {
-
-struct Wish
-{
-    const char* name;
-    int pixels;
-};
-constexpr Wish Wishes[] = {{"lampblack.panel", 460}, {"lampblack.materials", 280}};
-
-QDockWidget* dockOf(QWidget* widget)
-{
-    while (widget != nullptr && qobject_cast<QDockWidget*>(widget) == nullptr)
-        widget = widget->parentWidget();
-    return qobject_cast<QDockWidget*>(widget);
+constexpr int Wanted = 280;
 }
-
-void resize(QMainWindow& window, const QList<QDockWidget*>& docks, const QList<int>& heights)
-{
-    if (!docks.isEmpty())
-        window.resizeDocks(docks, heights, Qt::Vertical);
-}
-
-} // namespace
 
 DockRoom::DockRoom(Host& host, QObject* parent) : QObject(parent), mHost(host)
 {
@@ -41,22 +21,15 @@ DockRoom::DockRoom(Host& host, QObject* parent) : QObject(parent), mHost(host)
 void DockRoom::take()
 {
     auto* window = qobject_cast<QMainWindow*>(mHost.window());
-    if (window == nullptr || !mBefore.isEmpty())
+    auto* materials =
+        window ? window->findChild<QDockWidget*>(QStringLiteral("lampblack.materials")) : nullptr;
+    if (materials == nullptr || materials->isFloating() || !mBefore.isEmpty() ||
+        materials->height() >= Wanted)
         return;
-    for (auto* dock : window->findChildren<QDockWidget*>())
-        mBefore.append({dock, dock->height()});
-    QList<QDockWidget*> docks;
-    QList<int> heights;
-    for (const Wish& wish : Wishes)
-    {
-        auto* dock = dockOf(window->findChild<QWidget*>(QLatin1String(wish.name)));
-        if (dock != nullptr && !dock->isFloating() && dock->height() < wish.pixels)
-        {
-            docks.append(dock);
-            heights.append(qMin(wish.pixels, window->height() / 2));
-        }
-    }
-    resize(*window, docks, heights);
+    for (auto* dock : window->findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
+        if (window->dockWidgetArea(dock) == window->dockWidgetArea(materials))
+            mBefore.append({dock, dock->height()});
+    window->resizeDocks({materials}, {qMin(Wanted, window->height() / 3)}, Qt::Vertical);
 }
 
 void DockRoom::giveBack()
@@ -71,8 +44,8 @@ void DockRoom::giveBack()
             heights.append(before.pixels);
         }
     mBefore.clear();
-    if (window != nullptr)
-        resize(*window, docks, heights);
+    if (window != nullptr && !docks.isEmpty())
+        window->resizeDocks(docks, heights, Qt::Vertical);
 }
 
 } // namespace lampblack

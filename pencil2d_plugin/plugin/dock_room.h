@@ -1,4 +1,4 @@
-// Room for the lamp's panel and materials while it is in use.
+// Room for the materials while the lamp is in use.
 #pragma once
 
 #include "host/host.h"
@@ -9,7 +9,7 @@
 namespace lampblack
 {
 
-/// Makes the docks that hold our widgets taller at their neighbours' cost, and gives the room back.
+/// Makes the materials' dock taller at the cost of those in its area, and gives the room back.
 class DockRoom : public QObject
 {
     Q_OBJECT
@@ -27,7 +27,7 @@ private:
         int pixels;
     };
     Host& mHost;
-    QList<Height> mBefore; ///< of every dock, while we have the room
+    QList<Height> mBefore; ///< of every dock of the area, while we have the room
 };
 
 } // namespace lampblack
