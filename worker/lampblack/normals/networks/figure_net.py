@@ -124,10 +124,11 @@ class FigureNet(nn.Module):
             with torch.autocast("cpu", enabled=False):
                 head = self.normals(first.float())
         raw = nn.functional.pixel_shuffle(head, COARSE)
+        # In double precision, for in single the last bit depends on the number of threads.
         lumo = nn.functional.interpolate(
-            coarse[:, LUMO].float(), scale_factor=COARSE, mode="bilinear", align_corners=False
+            coarse[:, LUMO].double(), scale_factor=COARSE, mode="bilinear", align_corners=False
         )
-        return lumo + raw[:, :3], raw[:, 3:], self.auxiliary(first).float()
+        return lumo.float() + raw[:, :3], raw[:, 3:], self.auxiliary(first).float()
 
 
 def _wider(features: Tensor) -> Tensor:
