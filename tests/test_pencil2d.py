@@ -95,6 +95,7 @@ def settled(window: Pencil2D) -> None:
 
 def light_up(window: Pencil2D) -> None:
     window.click("lampblackButton")
+    wait_until(lambda: window.value("lampblackButton", "checked"), "the lamp in use", 10)
     settled(window)
 
 

@@ -208,9 +208,14 @@ class Pencil2D:
         return self.display.screenshot()[top : top + height, left : left + width]
 
     def click(self, name: str, button: int = 1) -> None:
-        """Click in the middle of a widget."""
-        left, top, width, height = self.rect(name)
+        """Click in the middle of a widget, once it stands still: docks are laid out late."""
+        left, top, width, height = wait_until(lambda: self._resting_rect(name), name, 10)
         self.click_at(left + width // 2, top + height // 2, button)
+
+    def _resting_rect(self, name: str) -> tuple[int, int, int, int] | None:
+        before = self.rect(name)
+        time.sleep(0.2)
+        return before if self.rect(name) == before else None
 
     def click_at(self, x: float, y: float, button: int = 1) -> None:
         self.display.do("mousemove", "--sync", round(x), round(y), "click", button)
