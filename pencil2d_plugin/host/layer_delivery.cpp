@@ -63,7 +63,7 @@ QByteArray digestOf(const Cel& cel)
 QString writeLayer(ProjectFile* file, const QString& name, const QMap<int, QString>& pictures,
                    const CameraKeys& camera, int frameCount)
 {
-    const QString full = QStringLiteral("The key frames cannot be written to the temporary folder.");
+    QString full = QStringLiteral("The key frames cannot be written to the temporary folder.");
     QImage nothing(1, 1, QImage::Format_ARGB32);
     nothing.fill(Qt::transparent);
     const Cel blank = cut(nothing, QPoint());

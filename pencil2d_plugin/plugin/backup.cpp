@@ -39,7 +39,7 @@ QString copyFolder(const QString& from, const QString& to)
         const QString file = files.next();
         if (!QDir().mkpath(to))
             return to;
-        if (const QString fault = copyWhole(file, QDir(to).filePath(files.fileName())); !fault.isEmpty())
+        if (QString fault = copyWhole(file, QDir(to).filePath(files.fileName())); !fault.isEmpty())
             return fault;
     }
     return {};

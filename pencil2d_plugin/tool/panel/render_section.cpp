@@ -13,7 +13,7 @@ namespace lampblack
 RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* parent)
     : Section(QStringLiteral("lampblack.panel.render_section"), tr("Whole animation"), true, parent),
       mDocument(document), mRender(render), mRange(new QComboBox(this)), mQuality(new QComboBox(this)),
-      mHide(new QCheckBox(tr("Hide lit layers"), this)),
+      mHide(new QCheckBox(tr("Hide the sources"), this)),
       mGenerate(new QPushButton(tr("Generate Surfaces"), this)),
       mRenderAll(new QPushButton(tr("Render All Frames"), this)), mSurfaceBar(new QProgressBar(this)),
       mRenderBar(new QProgressBar(this)), mCancel(new QPushButton(tr("Cancel"), this))
