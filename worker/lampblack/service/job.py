@@ -11,6 +11,7 @@ from pathlib import Path
 from ..camera import scene_in_view
 from ..drawing import load_picture, save_picture
 from ..errors import LampblackError, NothingDrawnError, OutputError, RenderError
+from ..normals.temporal.neighbours import Names
 from ..pipeline import Pipeline
 from ..protocol import Done, ErrorCode, FrameDone, Progress, error_message
 from ..render import RenderChild
@@ -20,6 +21,7 @@ from .model import Planes, take_planes_apart
 from .noticed import noticed_warnings
 from .session import Shown
 from .studio import Studio
+from .surroundings import Surroundings
 
 NICENESS = 10
 MAX_WAITING = 16
@@ -38,6 +40,7 @@ class Job:
 
     Attributes:
         output: a pattern with ``%04d`` for the frame's number.
+        around: by digest, the drawings before and after it in the animation.
     """
 
     session: str
@@ -46,6 +49,7 @@ class Job:
     scene: Scene
     output: str
     keep_finished: bool
+    around: dict[str, Names] = field(default_factory=dict)
     cancelled: bool = False
     done: int = 0
     failed: int = 0
@@ -69,6 +73,9 @@ class Jobs:
     _waiting: deque[Job] = field(default_factory=deque)
     _current: Job | None = None
     _condition: threading.Condition = field(default_factory=threading.Condition)
+
+    def __post_init__(self) -> None:
+        self._surroundings = Surroundings(self.pipeline)
 
     @property
     def waiting(self) -> int:
@@ -190,11 +197,14 @@ class Jobs:
     def _light(self, job: Job, frame: int, shown: Shown, planes: Planes, target: Path) -> None:
         drawing = take_planes_apart(planes)
         scene = scene_in_view(scene_at(job.scene, frame), shown.camera, drawing.size)
-        self.pipeline.height(drawing, lambda share: self._progress(job, frame, 0.3 * share))
+        beside = self._surroundings.beside(
+            job.around.get(shown.digest, ((), ())), lambda digest: self._planes(job, digest)
+        )
+        self.pipeline.height(drawing, lambda share: self._progress(job, frame, 0.3 * share), beside)
         for attempt in range(ATTEMPTS):
             self._progress(job, frame, 0.3)
             try:
-                picture = self.pipeline.render(drawing, scene)
+                picture = self.pipeline.render(drawing, scene, beside)
                 break
             except RenderError as error:
                 self._check(job)
