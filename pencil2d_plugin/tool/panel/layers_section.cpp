@@ -1,6 +1,7 @@
 #include "tool/panel/layers_section.h"
 
 #include "scene/layer_roles.h"
+#include "tool/panel/scroll_past.h"
 
 #include <QComboBox>
 #include <QGridLayout>
@@ -59,7 +60,7 @@ void LayersSection::refresh()
         role->addItem(tr("Line"), QStringLiteral("line"));
         role->addItem(tr("Background"), QStringLiteral("background"));
         role->setCurrentIndex(qMax(0, role->findData(roles.value(layer.name, Character))));
-        role->setFocusPolicy(Qt::StrongFocus);
+        scrollPast(role);
         const QString layerName = layer.name;
         connect(role, qOverload<int>(&QComboBox::activated), this,
                 [this, layerName, role](int index) { setRole(layerName, role->itemData(index).toString()); });

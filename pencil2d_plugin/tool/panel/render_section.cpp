@@ -1,5 +1,7 @@
 #include "tool/panel/render_section.h"
 
+#include "tool/panel/scroll_past.h"
+
 #include <QAction>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -22,14 +24,14 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     mRange->setAccessibleName(tr("Frames to render"));
     mRange->setToolTip(tr("The loop is the range set in the timeline."));
     mRange->addItems({tr("All"), tr("Loop"), tr("Current")});
-    mRange->setFocusPolicy(Qt::StrongFocus);
+    scrollPast(mRange);
     mHide->setObjectName(QStringLiteral("lampblack.panel.hide"));
     mHide->setToolTip(tr("Once every frame is in the layer \"Lit\", hide the layers that it was lit from."));
     mQuality->setObjectName(QStringLiteral("lampblack.panel.quality"));
     mQuality->setAccessibleName(tr("Quality of rendered frames"));
     mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
     mQuality->addItems({tr("Low"), tr("Medium"), tr("Final")});
-    mQuality->setFocusPolicy(Qt::StrongFocus);
+    scrollPast(mQuality);
     mGenerate->setObjectName(QStringLiteral("lampblack.panel.generate"));
     mGenerate->setToolTip(tr("Model every frame now, so that scrubbing and playing are lit at once."));
     mRenderAll->setObjectName(QStringLiteral("lampblack.panel.render"));

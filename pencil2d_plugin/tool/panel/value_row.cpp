@@ -1,5 +1,7 @@
 #include "tool/panel/value_row.h"
 
+#include "tool/panel/scroll_past.h"
+
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLineEdit>
@@ -54,6 +56,8 @@ ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale&
     row->addWidget(mLabel);
     row->addWidget(mSlider, 1);
     row->addWidget(mField);
+    scrollPast(mSlider);
+    scrollPast(mField);
     setScale(scale);
     align();
     connect(mSlider, &QSlider::sliderPressed, this, [this] { mSlide = newGesture(); });

@@ -6,6 +6,9 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLineEdit>
+#include <QScrollBar>
+#include <QWheelEvent>
+#include <QtTest/qtestspontaneevent.h>
 
 #include <memory>
 
@@ -98,6 +101,22 @@ private Q_SLOTS:
         mDocument->undoStack()->undo();
         QCOMPARE(light().power, 1.2);
         QCOMPARE(find<QDoubleSpinBox>("power.field")->value(), 1.2);
+    }
+
+    void aWheelThatScrollsThePanelChangesNothing()
+    {
+        QVERIFY(QTest::qWaitForWindowExposed(mPanel.get()));
+        QTRY_VERIFY(mPanel->verticalScrollBar()->maximum() > 0);
+        for (const char* name : {"power", "floor.pitch", "quality", "power.field"})
+        {
+            auto* control = find<QWidget>(name);
+            QWheelEvent event(QPointF(5, 5), control->mapToGlobal(QPointF(5, 5).toPoint()), QPoint(),
+                              QPoint(0, -120), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+            QSpontaneKeyEvent::setSpontaneous(&event); // only such are passed on to parents
+            qApp->notify(control, &event);
+        }
+        QCOMPARE(mDocument->undoStack()->count(), 0);
+        QVERIFY(mPanel->verticalScrollBar()->value() > 0);
     }
 
     void aTypedNumberCountsOnceItIsWhole()
