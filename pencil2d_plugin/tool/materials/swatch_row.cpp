@@ -25,7 +25,6 @@ SwatchRow::SwatchRow(const QString& colour, int columnWidth, QWidget* parent)
     mGlossy->setObjectName(QStringLiteral("lampblack.materials.glossy.") + colour);
     mGlossy->setAccessibleName(tr("%1 glossy").arg(colour));
     mGlossy->setToolTip(tr("Glossy: shows highlights"));
-    name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     name->setMinimumWidth(name->fontMetrics().horizontalAdvance(colour.left(4)));
     auto* row = new QHBoxLayout;
     row->setSpacing(6);
