@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import shutil
 import statistics
 import sys
@@ -143,6 +144,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--drags", type=int, default=0)
     arguments = parser.parse_args()
+    # Glib's event loop does not tell when it works and when it waits.
+    os.environ.setdefault("QT_NO_GLIB", "1")
     if missing():
         sys.stderr.write(f"missing: {missing()}\n")
         return 1
