@@ -46,7 +46,7 @@ FrameQueue::~FrameQueue()
 void FrameQueue::request(int first, int last, const QStringList& layers)
 {
     for (int frame = qMax(1, first); frame <= qMin(last, MaxFrame); ++frame)
-        mWanted.insert(frame, Wanted{layers, 0});
+        mWanted.insert({frame, layers}, 0);
     if (!mWanted.isEmpty() && !mTimer.isActive())
         mTimer.start(0);
 }
@@ -67,11 +67,12 @@ void FrameQueue::work()
         mTimer.start(RetryMs);
         return;
     }
-    const int first = mWanted.contains(mCurrentFrame) ? mCurrentFrame : mWanted.firstKey();
-    const QStringList layers = mWanted.value(first).layers;
+    const auto current = mWanted.lowerBound({mCurrentFrame, {}});
+    const bool isCurrent = current != mWanted.end() && current.key().first == mCurrentFrame;
+    const auto [first, layers] = isCurrent ? current.key() : mWanted.firstKey();
     const int most = qBound(1, int(ChunkMs / mFrameMs), MaxChunk);
     int last = first;
-    while (last - first + 1 < most && mWanted.contains(last + 1) && mWanted.value(last + 1).layers == layers)
+    while (last - first + 1 < most && mWanted.contains({last + 1, layers}))
         ++last;
     exportChunk(first, last, layers);
     if (!mWanted.isEmpty())
@@ -87,7 +88,7 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
     const QString folder = mFolder.filePath(QString::number(++mExports));
     if (!mFolder.isValid() || !QDir().mkpath(folder))
     {
-        fail(first, last, QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
+        fail(first, last, layers, QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
         return;
     }
 
@@ -120,50 +121,51 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
     {
         if (exported.files.contains(frame))
         {
-            mWanted.remove(frame);
-            readLater(frame, exported.files.value(frame), mExports);
+            mWanted.remove({frame, layers});
+            readLater({frame, layers}, exported.files.value(frame), mExports);
         }
         else
-            fail(frame, frame, exported.fault);
+            fail(frame, frame, layers, exported.fault);
     }
     Q_EMIT looked(exported);
 }
 
-void FrameQueue::fail(int first, int last, const QString& details)
+void FrameQueue::fail(int first, int last, const QStringList& layers, const QString& details)
 {
     constexpr int MaxAttempts = 3;
     for (int frame = first; frame <= last; ++frame)
     {
-        if (++mWanted[frame].attempts < MaxAttempts)
+        if (++mWanted[{frame, layers}] < MaxAttempts)
             continue;
-        mWanted.remove(frame);
+        mWanted.remove({frame, layers});
         Q_EMIT failed(frame, {QStringLiteral("Frame %1 could not be read from Pencil2D.").arg(frame),
                               QStringLiteral("Save the project, then try again."), details});
     }
 }
 
-void FrameQueue::readLater(int frame, const QString& path, quint64 number)
+void FrameQueue::readLater(const Wanted& wanted, const QString& path, quint64 number)
 {
     ++mReading;
-    mNewest.insert(frame, number);
+    mNewest.insert(wanted, number);
     mReaders.start(
-        [this, frame, path, number]
+        [this, wanted, path, number]
         {
             const QImage image = readPng(path);
             QFile::remove(path);
             QDir().rmdir(QFileInfo(path).path());
             QMetaObject::invokeMethod(
                 this,
-                [this, frame, image, number]
+                [this, wanted, image, number]
                 {
                     --mReading;
-                    if (mNewest.value(frame) != number)
+                    if (mNewest.value(wanted) != number)
                         return;
-                    mNewest.remove(frame);
+                    mNewest.remove(wanted);
+                    const auto [frame, layers] = wanted;
                     if (image.isNull())
-                        fail(frame, frame, QStringLiteral("The exported PNG could not be read."));
+                        fail(frame, frame, layers, QStringLiteral("The exported PNG could not be read."));
                     else
-                        Q_EMIT this->exported(frame, image);
+                        Q_EMIT exported(frame, layers, image);
                 },
                 Qt::QueuedConnection);
         });

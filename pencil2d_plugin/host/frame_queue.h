@@ -35,21 +35,17 @@ public:
     void setLayers(const QVector<Layer>& layers) { mLayers = layers; }
 
 Q_SIGNALS:
-    void exported(int frame, const QImage& image);
+    void exported(int frame, const QStringList& layers, const QImage& image);
     void failed(int frame, const lampblack::UserError& error);
     void looked(const lampblack::Exported& exported);
 
 private:
     void work();
-    void exportChunk(int first, int last, const QStringList& layers);
-    void readLater(int frame, const QString& path, quint64 number);
-    void fail(int first, int last, const QString& details);
+    using Wanted = QPair<int, QStringList>; ///< a frame, and its layers that are asked for
 
-    struct Wanted
-    {
-        QStringList layers;
-        int attempts = 0;
-    };
+    void exportChunk(int first, int last, const QStringList& layers);
+    void readLater(const Wanted& wanted, const QString& path, quint64 number);
+    void fail(int first, int last, const QStringList& layers, const QString& details);
 
     Parts mParts;
     Idleness* mIdleness;
@@ -58,10 +54,10 @@ private:
     QTemporaryDir mFolder;
     QTimer mTimer;
     QThreadPool mReaders;
-    QMap<int, Wanted> mWanted;
+    QMap<Wanted, int> mWanted; ///< how often it failed
     QVector<Layer> mLayers;
     QString mCamera;
-    QMap<int, quint64> mNewest; ///< the number of the newest export of a frame
+    QMap<Wanted, quint64> mNewest; ///< the number of the newest export
     quint64 mExports = 0;
     int mReading = 0;
     int mCurrentFrame = 1;

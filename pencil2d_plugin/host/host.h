@@ -43,6 +43,7 @@ struct FrameExport
     int frame = 0;
     QImage image;             ///< Format_RGBA8888
     QTransform canvasToImage; ///< identity but under a moved camera
+    QStringList layers;       ///< as they were asked for
 };
 
 /// From `first` to `last`, both included.
@@ -123,7 +124,7 @@ public:
 
     /// Ask for frames first..last with only the named layers, hidden or not (empty: all visible). They come
     /// by frameExported(), one or a few each time the artist is idle: never while a button is down or the
-    /// animation plays. A newer request for a frame replaces the older one. exportFailed() tells what cannot
+    /// animation plays. Asking again before it came changes nothing. exportFailed() tells what cannot
     /// be had.
     virtual void requestFrames(int first, int last, const QStringList& layers = {}) = 0;
     virtual void cancelRequests() = 0;

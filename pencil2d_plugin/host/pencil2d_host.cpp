@@ -266,9 +266,9 @@ void Pencil2DHost::onLooked(const Exported& exported)
     }
 }
 
-void Pencil2DHost::onExported(int frame, const QImage& image)
+void Pencil2DHost::onExported(int frame, const QStringList& layers, const QImage& image)
 {
-    Q_EMIT frameExported({frame, image, canvasToImage(cameraAt(mCamera, frame), image.size())});
+    Q_EMIT frameExported({frame, image, canvasToImage(cameraAt(mCamera, frame), image.size()), layers});
 }
 
 void Pencil2DHost::survey()

@@ -63,7 +63,7 @@ private:
     void survey();
     void surveyCamera(int row);
     void onLooked(const Exported& exported);
-    void onExported(int frame, const QImage& image);
+    void onExported(int frame, const QStringList& layers, const QImage& image);
     void onProjectOpened(const QString& path);
     void onLayersTouched();
     bool surveyLayers();

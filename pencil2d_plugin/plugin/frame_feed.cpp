@@ -1,6 +1,6 @@
 #include "plugin/frame_feed.h"
 
-#include "plugin/lit_layer.h"
+#include "plugin/layer_stack.h"
 
 namespace lampblack
 {
@@ -52,16 +52,9 @@ FrameExport FrameFeed::lastExport(int frame) const
 QStringList FrameFeed::litLayers() const
 {
     const QVector<Layer> layers = mHost.layers();
-    const QStringList lit = sourceLayers(layers, mDocument.layerRoles());
-    QStringList visible;
-    for (const Layer& layer : layers)
-    {
-        const bool drawn = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
-        if (drawn && layer.visible)
-            visible.append(layer.name);
-    }
-    if (lit == visible)
+    if (layers.isEmpty()) // they cannot be named
         return {};
+    const QStringList lit = stackLayers(layers, mDocument.layerRoles()).lit;
     // Nothing to light is no layer at all, not every one.
     return lit.isEmpty() ? QStringList(QString()) : lit;
 }
@@ -96,6 +89,8 @@ void FrameFeed::wantCurrent()
 
 void FrameFeed::take(const FrameExport& frame)
 {
+    if (frame.layers != litLayers())
+        return;
     mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage);
     mFresh.insert(frame.frame);
     const int cost = int(frame.image.sizeInBytes() / 1024) + 1;

@@ -29,7 +29,7 @@ public:
     /// The last export of a frame, if it is still kept and fresh; its image is null otherwise.
     FrameExport lastExport(int frame) const;
 
-    /// The layers that are lit; empty: all that are visible.
+    /// The layers that are lit; empty: all that are visible, for they cannot be told apart.
     QStringList litLayers() const;
 
     /// Have all of first..last exported; freshened() comes for each, at once for those that are fresh.

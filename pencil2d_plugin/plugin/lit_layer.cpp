@@ -1,6 +1,7 @@
 #include "plugin/lit_layer.h"
 
 #include "plugin/backup.h"
+#include "plugin/layer_stack.h"
 
 #include <algorithm>
 
@@ -13,31 +14,8 @@ namespace
 const QString Name = resultLayer();
 const QString Result = QStringLiteral("result");
 const QString Character = QStringLiteral("character");
-const QString Background = QStringLiteral("background");
-
-bool isDrawn(const Layer& layer)
-{
-    return layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
-}
 
 } // namespace
-
-QStringList sourceLayers(const QVector<Layer>& layers, const LayerRoles& roles)
-{
-    const bool finished =
-        std::any_of(layers.begin(), layers.end(),
-                    [&](const Layer& layer) { return layer.visible && isResult(layer.name, roles); });
-    QStringList sources;
-    for (const Layer& layer : layers)
-    {
-        const bool counts = layer.visible || (finished && roles.contains(layer.name));
-        if (isDrawn(layer) && counts && !isResult(layer.name, roles) && roles.value(layer.name) != Background)
-        {
-            sources.append(layer.name);
-        }
-    }
-    return sources;
-}
 
 LitLayer::LitLayer(Host& host, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mDocument(document)
@@ -117,7 +95,7 @@ void LitLayer::settle()
     mAtWork = false;
     mUnsaved = true;
     LayerRoles roles = mDocument.layerRoles();
-    const QStringList sources = sourceLayers(mHost.layers(), roles);
+    const QStringList sources = stackLayers(mHost.layers(), roles).lit;
     roles.insert(Name, Result);
     if (mHideSources)
     {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/host.h"
-#include "scene/layer_roles.h"
 #include "scene/scene_document.h"
 
 #include <QMap>
@@ -11,9 +10,6 @@
 
 namespace lampblack
 {
-
-/// The layers to light, top first. Sources that were hidden behind the layer of results still count.
-QStringList sourceLayers(const QVector<Layer>& layers, const LayerRoles& roles);
 
 class LitLayer : public QObject
 {

@@ -35,8 +35,10 @@ QSize deviceSize(const QTransform& imageToWidget, const QWidget& widget, const Q
 
 } // namespace
 
-LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, LampTool& tool, QObject* parent)
-    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mTool(tool), mKept(MostKept)
+LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, Surroundings& around, LampTool& tool,
+                 QObject* parent)
+    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mAround(around), mTool(tool),
+      mKept(MostKept)
 {
     mSoon.setSingleShot(true);
     mSoon.setInterval(0);
@@ -56,6 +58,12 @@ LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, LampTool& tool, QO
                 mKept.remove(frame);
                 if (frame == mHost.currentFrame())
                     mTool.clearPicture();
+            });
+    connect(&around, &Surroundings::arrived, this,
+            [this](int frame)
+            {
+                if (frame == mHost.currentFrame())
+                    show(frame);
             });
     connect(&tool, &LampTool::viewModeChanged, this,
             [this]
@@ -99,13 +107,21 @@ void LitView::update()
     if (frame != mShownFrame)
     {
         mShownFrame = frame;
-        const LookImage* kept = mKept.object(frame);
-        if (isLooking() && kept && mWorker.isCurrent(*kept))
-            mTool.setPicture(*kept);
-        else
-            mTool.clearPicture();
+        show(frame);
     }
     mSoon.start();
+}
+
+void LitView::show(int frame)
+{
+    const LookImage* kept = mKept.object(frame);
+    if (!isLooking() || !kept || !mWorker.isCurrent(*kept) || !mAround.isKnown(frame))
+    {
+        mTool.clearPicture();
+        return;
+    }
+    mTool.setSurroundings(mAround.below(frame), mAround.above(frame));
+    mTool.setPicture(*kept);
 }
 
 void LitView::ask()
@@ -135,8 +151,11 @@ void LitView::take(const LookImage& image)
 {
     if (!isLooking() || image.show != wanted())
         return;
-    if (image.frame == mHost.currentFrame())
+    if (image.frame == mHost.currentFrame() && mAround.isKnown(image.frame))
+    {
+        mTool.setSurroundings(mAround.below(image.frame), mAround.above(image.frame));
         mTool.setPicture(image);
+    }
     mKept.insert(image.frame, new LookImage(image), int(image.picture.sizeInBytes() / 1024) + 1);
 }
 

@@ -1,5 +1,6 @@
 #include "plugin/shot_job.h"
 
+#include "scene/layer_roles.h"
 #include "worker/frame_list.h"
 
 #include <QDir>

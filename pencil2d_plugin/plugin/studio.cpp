@@ -11,7 +11,8 @@ Studio::Studio(Host& host, QObject* parent)
     : QObject(parent), mHost(host), mWorker(std::make_unique<WorkerSession>()),
       mTool(std::make_unique<LampTool>(host, *mWorker, mDocument)),
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
-      mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mTool)),
+      mAround(std::make_unique<Surroundings>(host, *mFeed, mDocument)),
+      mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mAround, *mTool)),
       mLayer(std::make_unique<LitLayer>(host, mDocument)),
       mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, *mLayer, mDocument)),
       mProject(std::make_unique<ProjectScene>(host, mDocument, *mLayer)), mRoom(host)
@@ -59,6 +60,7 @@ void Studio::close()
 {
     mJob.reset();
     mView.reset();
+    mAround.reset();
     mFeed.reset();
     mProject.reset();
     mLayer.reset();

@@ -8,6 +8,7 @@
 #include "plugin/lit_view.h"
 #include "plugin/project_scene.h"
 #include "plugin/shot_job.h"
+#include "plugin/surroundings.h"
 #include "scene/scene_document.h"
 #include "tool/lamp_tool.h"
 #include "worker/worker.h"
@@ -54,6 +55,7 @@ private:
     std::unique_ptr<Worker> mWorker;
     std::unique_ptr<LampTool> mTool;
     std::unique_ptr<FrameFeed> mFeed;
+    std::unique_ptr<Surroundings> mAround;
     std::unique_ptr<LitView> mView;
     std::unique_ptr<LitLayer> mLayer;
     std::unique_ptr<ShotJob> mJob;

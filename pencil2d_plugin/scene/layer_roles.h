@@ -16,6 +16,16 @@ inline QString resultLayer()
     return QStringLiteral("Lit");
 }
 
+/// The role of a layer that is not of results. Until one is called a character or a line, all are characters;
+/// from then on, a layer without a role is background.
+inline QString roleOf(const QString& layer, const LayerRoles& roles)
+{
+    const QString character = QStringLiteral("character");
+    const QList<QString> given = roles.values();
+    const bool named = given.contains(character) || given.contains(QStringLiteral("line"));
+    return roles.value(layer, named ? QStringLiteral("background") : character);
+}
+
 /// Whether a layer holds results: it is never lit again. One of the right name counts even where no scene
 /// says so.
 inline bool isResult(const QString& layer, const LayerRoles& roles)

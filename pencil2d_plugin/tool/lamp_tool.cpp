@@ -222,10 +222,10 @@ void LampTool::clearPicture()
         mOverlay->clearPicture();
 }
 
-void LampTool::setBackdrop(const FrameExport& backdrop)
+void LampTool::setSurroundings(const FrameExport& below, const FrameExport& above)
 {
     if (mOverlay)
-        mOverlay->setBackdrop(backdrop);
+        mOverlay->setSurroundings(below, above);
 }
 
 void LampTool::setPalette(const QVector<Swatch>& swatches)

@@ -50,8 +50,8 @@ public Q_SLOTS:
     void setPicture(const lampblack::LookImage& picture);
     void clearPicture();
 
-    /// What the lit layers stand before, in place of bare paper; a null image for paper.
-    void setBackdrop(const lampblack::FrameExport& backdrop);
+    /// What is not lit, under and over what is; null images for nothing.
+    void setSurroundings(const lampblack::FrameExport& below, const lampblack::FrameExport& above);
 
     /// The flat colours of the drawing in sight, most used first.
     void setPalette(const QVector<lampblack::Swatch>& swatches);

@@ -36,9 +36,9 @@ void CanvasOverlay::setPicture(const LookImage& look, const QTransform& canvasTo
         update(before.united(mPicture.bounds(*mCanvasToWidget)));
 }
 
-void CanvasOverlay::setBackdrop(const FrameExport& backdrop)
+void CanvasOverlay::setSurroundings(const FrameExport& below, const FrameExport& above)
 {
-    mPicture.setBackdrop(backdrop);
+    mPicture.setSurroundings(below, above);
     if (mCanvasToWidget)
         update(mPicture.bounds(*mCanvasToWidget));
 }

@@ -27,7 +27,7 @@ public:
     bool showsPicture() const;
 
     void setPicture(const LookImage& look, const QTransform& canvasToImage);
-    void setBackdrop(const FrameExport& backdrop);
+    void setSurroundings(const FrameExport& below, const FrameExport& above);
     void clearPicture();
 
     /// Show the drawing as drawn, for as long as a key is held.

@@ -10,9 +10,16 @@ void LitPicture::setPicture(const LookImage& look, const QTransform& canvasToIma
     mCache = QPixmap();
 }
 
-void LitPicture::setBackdrop(const FrameExport& backdrop)
+void LitPicture::setSurroundings(const FrameExport& below, const FrameExport& above)
 {
-    mBackdrop = backdrop;
+    const auto isSame = [](const FrameExport& one, const FrameExport& other)
+    {
+        return one.image.cacheKey() == other.image.cacheKey() && one.canvasToImage == other.canvasToImage;
+    };
+    if (isSame(below, mBelow) && isSame(above, mAbove))
+        return;
+    mBelow = below;
+    mAbove = above;
     mCache = QPixmap();
 }
 
@@ -62,15 +69,20 @@ void LitPicture::draw(QPainter& painter, const QTransform& canvasToWidget, const
     painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
     painter.setTransform(mCanvasToImage.inverted() * canvasToWidget, true);
     painter.fillRect(mLook.crop, paper);
-    if (!mBackdrop.image.isNull())
-    {
-        painter.save();
-        painter.setClipRect(mLook.crop);
-        painter.setTransform(mBackdrop.canvasToImage.inverted() * mCanvasToImage, true);
-        painter.drawImage(QPointF(), mBackdrop.image);
-        painter.restore();
-    }
+    drawUnlit(painter, mBelow);
     painter.drawImage(mLook.crop, mLook.picture, QRectF(mLook.picture.rect()));
+    drawUnlit(painter, mAbove);
+}
+
+void LitPicture::drawUnlit(QPainter& painter, const FrameExport& plate) const
+{
+    if (plate.image.isNull())
+        return;
+    painter.save();
+    painter.setClipRect(mLook.crop);
+    painter.setTransform(plate.canvasToImage.inverted() * mCanvasToImage, true);
+    painter.drawImage(QPointF(), plate.image);
+    painter.restore();
 }
 
 } // namespace lampblack

@@ -16,8 +16,8 @@ class LitPicture
 public:
     /// `canvasToImage` is the camera of the frame: the picture's crop is in the frame's own pixels.
     void setPicture(const LookImage& look, const QTransform& canvasToImage);
-    /// What lies below the drawing: layers that are not lit. Null for bare paper.
-    void setBackdrop(const FrameExport& backdrop);
+    /// What lies under and over what is lit: the layers that are not. Null images for none.
+    void setSurroundings(const FrameExport& below, const FrameExport& above);
     void clear();
     bool isEmpty() const { return mLook.picture.isNull(); }
     const LookImage& look() const { return mLook; }
@@ -30,10 +30,12 @@ public:
 
 private:
     void draw(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const;
+    void drawUnlit(QPainter& painter, const FrameExport& plate) const;
 
     LookImage mLook;
     QTransform mCanvasToImage;
-    FrameExport mBackdrop;
+    FrameExport mBelow;
+    FrameExport mAbove;
 
     QPixmap mCache;
     QPoint mCacheAt; ///< widget pixels

@@ -59,7 +59,7 @@ void LayersSection::refresh()
         role->addItem(tr("Character"), Character);
         role->addItem(tr("Line"), QStringLiteral("line"));
         role->addItem(tr("Background"), QStringLiteral("background"));
-        role->setCurrentIndex(qMax(0, role->findData(roles.value(layer.name, Character))));
+        role->setCurrentIndex(qMax(0, role->findData(roleOf(layer.name, roles))));
         scrollPast(role);
         const QString layerName = layer.name;
         connect(role, qOverload<int>(&QComboBox::activated), this,
@@ -74,13 +74,14 @@ void LayersSection::refresh()
 void LayersSection::setRole(const QString& layer, const QString& role)
 {
     // Every layer is named: with some named, those left out would not be lit.
-    QMap<QString, QString> roles = mDocument.layerRoles();
+    const LayerRoles before = mDocument.layerRoles();
+    LayerRoles roles = before;
     const QVector<Layer> layers = mHost.layers();
     for (const Layer& each : layers)
     {
         const bool isDrawing = each.kind == Layer::Kind::Bitmap || each.kind == Layer::Kind::Vector;
-        if (isDrawing && !roles.contains(each.name) && !isResult(each.name, roles))
-            roles.insert(each.name, Character);
+        if (isDrawing && !isResult(each.name, before))
+            roles.insert(each.name, roleOf(each.name, before));
     }
     roles.insert(layer, role);
     mDocument.setLayerRoles(roles);

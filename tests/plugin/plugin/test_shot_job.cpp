@@ -31,7 +31,7 @@ public:
             if (mBroken.contains(frame))
                 Q_EMIT exportFailed(frame, {QStringLiteral("Frame %1 is broken.").arg(frame), {}, {}});
             else
-                Q_EMIT frameExported({frame, QImage(4, 4, QImage::Format_RGBA8888), {}});
+                Q_EMIT frameExported({frame, QImage(4, 4, QImage::Format_RGBA8888), {}, layers});
         }
     }
     void deliverLayer(const QString& name, const QMap<int, QString>& pictures) override

@@ -100,7 +100,7 @@ public:
     State state() const override { return mState; }
     void start() override {}
     void stop() override {}
-    void putFrame(int, const QImage&, const QTransform&) override {}
+    void putFrame(int frame, const QImage&, const QTransform&) override { mPut.append(frame); }
     void dropFrame(int) override {}
     void dropAllFrames() override {}
     void setScene(const Scene&) override {}
@@ -112,6 +112,7 @@ public:
     quint64 render(const QString&, const QString&, Quality, bool) override { return 0; }
     void cancelRender(quint64) override {}
 
+    QVector<int> mPut;
     State mState = State::Ready;
 };
 

@@ -120,7 +120,7 @@ private Q_SLOTS:
         QCOMPARE(qAlpha(shown.pixel(300, 149)), 0);
     }
 
-    void paperAndBackdropShowThroughWhatIsClear()
+    void whatIsNotLitShowsUnderAndOverIt()
     {
         LookImage look = lookOf(QRectF(QPointF(), QSizeF(Canvas)), 1);
         look.picture.fill(Qt::transparent);
@@ -130,8 +130,19 @@ private Q_SLOTS:
         FrameExport hills;
         hills.image = QImage(Canvas, QImage::Format_RGBA8888);
         hills.image.fill(QColor(0, 128, 0));
-        picture.setBackdrop(hills);
+        picture.setSurroundings(hills, {});
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(0, 128, 0));
+        look.picture.fill(Qt::red);
+        picture.setPicture(look, QTransform());
+        QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(Qt::red));
+        // A plate in front, seen by a camera that has moved since.
+        FrameExport rain;
+        rain.image = QImage(10, 10, QImage::Format_RGBA8888);
+        rain.image.fill(Qt::blue);
+        rain.canvasToImage = QTransform::fromTranslate(-60, -60);
+        picture.setSurroundings(hills, rain);
+        QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(65, 65)), QColor(Qt::blue));
+        QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(59, 65)), QColor(Qt::red));
     }
 
     void theOverlayCoversTheDrawingOnlyWhileItShowsAPicture()
