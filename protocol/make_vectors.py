@@ -21,6 +21,8 @@ from cases.wire import rejected_frames, rejected_json, rejected_types
 
 from lampblack.protocol import decode
 from lampblack.protocol.conformance import understood
+from lampblack.scene import Scene, decode_scene, encode_scene
+from lampblack.timeline import scene_at
 
 
 def write(folder: Path, *, every_fault: bool = False) -> None:
@@ -61,7 +63,20 @@ def write_case(place: Path, case: Case) -> None:
             expected["limits"] = case.limits
     else:
         expected |= understood(decode(frames, case.sender))
-    (place / "expected.json").write_text(json.dumps(expected, indent=2) + "\n", encoding="utf-8")
+    write_json(place / "expected.json", expected)
+    if case.frames:
+        scene = decode_scene(json.dumps(expected["message"]["scene"]).encode())
+        write_json(place / "scene_at.json", [at(scene, frame) for frame in case.frames])
+
+
+def at(scene: Scene, frame: int) -> Tree:
+    """Lights and floor of ``scene`` as they are at ``frame``."""
+    still = json.loads(encode_scene(scene_at(scene, frame)))
+    return {"frame": frame, "lights": still["lights"], "floor": still["floor"]}
+
+
+def write_json(path: Path, value: object) -> None:
+    path.write_text(json.dumps(value, indent=2) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

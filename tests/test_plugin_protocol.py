@@ -11,9 +11,11 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from conformance import VECTORS, cases, differs, expectation, frames_of, verdict
@@ -21,7 +23,17 @@ from lampblack.errors import SceneError
 from lampblack.protocol import CATALOGUE, decode
 from lampblack.protocol.conformance import understood
 from lampblack.protocol.version import PREFIX
-from lampblack.scene import Scene, decode_scene, default_scene, encode_scene
+from lampblack.scene import (
+    AreaLight,
+    Floor,
+    FloorKey,
+    LightKey,
+    Scene,
+    decode_scene,
+    default_scene,
+    encode_scene,
+)
+from lampblack.timeline import scene_at
 
 ROOT = VECTORS.parents[1]
 BUILD = Path(os.environ.get("LAMPBLACK_BUILD", ROOT / "build" / "dev"))
@@ -145,6 +157,29 @@ def test_scene_files_are_refused_alike(program: str, tmp_path: Path, name: str) 
     with pytest.raises(SceneError):
         decode_scene(NO_SCENES[name])
     assert list(run(program, "--scene", file)[0]) == ["fault"]
+
+
+def test_keyed_scenes_are_alike_at_every_frame(program: str, tmp_path: Path) -> None:
+    """Every number to its last bits, every colour to the byte."""
+    rng = np.random.default_rng(11)
+
+    def key(frame: int) -> LightKey:
+        x, y, z = rng.uniform(-500, 500, 3).tolist()
+        size, power = rng.uniform(1, 9, 2).tolist()
+        return LightKey(frame, x, y, z, size, "#" + rng.bytes(3).hex(), power)
+
+    frames = range(1, 500)
+    lights = tuple(
+        AreaLight(0, 0, 0, keys=tuple(map(key, rng.permutation(frames)[:count].tolist())))
+        for count in (2, 7, 40, 128)
+    )
+    floor = Floor(0, keys=(FloorKey(400, 1 / 3), FloorKey(3, 0.7), FloorKey(90, 9.1, 80)))
+    scene = replace(default_scene(640, 480), lights=lights, floor=floor)
+    file = tmp_path / "scene.json"
+    file.write_bytes(encode_scene(scene))
+    theirs = run(program, "--scene-at", file, *map(str, frames))
+    ours = [json.loads(encode_scene(scene_at(scene, frame))) for frame in frames]
+    assert theirs == ours
 
 
 def test_default_scenes_are_the_same(program: str) -> None:

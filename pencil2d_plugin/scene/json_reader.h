@@ -149,6 +149,12 @@ public:
         }
     }
 
+    /// Left out where it is empty.
+    template <class T> void listIfAny(const char* name, QVector<T>& values, int most)
+    {
+        list(name, values, most, Need::Optional);
+    }
+
     template <class T>
     void map(const char* name, QMap<QString, T>& values, int most, const QRegularExpression& keys)
     {

@@ -83,6 +83,14 @@ public:
         put(name, array);
     }
 
+    template <class T> void listIfAny(const char* name, QVector<T>& values, int most)
+    {
+        if (!values.isEmpty())
+        {
+            list(name, values, most);
+        }
+    }
+
     template <class T, class... Rule> void map(const char* name, QMap<QString, T>& values, const Rule&...)
     {
         QJsonObject object;

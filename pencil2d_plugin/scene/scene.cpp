@@ -7,9 +7,15 @@ namespace lampblack
 namespace
 {
 
+auto members(const LightKey& key)
+{
+    return std::tie(key.frame, key.x, key.y, key.z, key.size, key.colour, key.power, key.extra);
+}
+
 auto members(const AreaLight& light)
 {
-    return std::tie(light.x, light.y, light.z, light.size, light.colour, light.power, light.extra);
+    return std::tie(light.x, light.y, light.z, light.size, light.colour, light.power, light.keys,
+                    light.extra);
 }
 
 auto members(const Ambient& ambient)
@@ -22,9 +28,14 @@ auto members(const Material& material)
     return std::tie(material.diffuse, material.glossy, material.gloss, material.roughness, material.extra);
 }
 
+auto members(const FloorKey& key)
+{
+    return std::tie(key.frame, key.y, key.pitch, key.extra);
+}
+
 auto members(const Floor& floor)
 {
-    return std::tie(floor.y, floor.pitch, floor.extra);
+    return std::tie(floor.y, floor.pitch, floor.keys, floor.extra);
 }
 
 auto members(const Scene& scene)
@@ -34,6 +45,11 @@ auto members(const Scene& scene)
 }
 
 } // namespace
+
+bool operator==(const LightKey& a, const LightKey& b)
+{
+    return members(a) == members(b);
+}
 
 bool operator==(const AreaLight& a, const AreaLight& b)
 {
@@ -46,6 +62,11 @@ bool operator==(const Ambient& a, const Ambient& b)
 }
 
 bool operator==(const Material& a, const Material& b)
+{
+    return members(a) == members(b);
+}
+
+bool operator==(const FloorKey& a, const FloorKey& b)
 {
     return members(a) == members(b);
 }

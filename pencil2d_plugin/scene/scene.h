@@ -19,8 +19,23 @@ namespace lampblack
 {
 
 constexpr int MaxLights = 4;
+constexpr int MaxKeys = 128; ///< of a light or a floor
 
-/// A disk of light facing the paper point beneath it; z below 0 stands behind the paper.
+/// What a light is like at one frame.
+struct LightKey
+{
+    int frame = 0; ///< 0 to 999999
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    double size = 200;
+    QColor colour = Qt::white;
+    double power = 1;
+    QJsonObject extra;
+};
+
+/// A disk of light facing the paper point beneath it; z below 0 stands behind the paper. With keys, its own
+/// values count for nothing: see timeline.h.
 struct AreaLight
 {
     double x = 0;
@@ -29,6 +44,7 @@ struct AreaLight
     double size = 200; ///< diameter, canvas pixels
     QColor colour = Qt::white;
     double power = 1;
+    QVector<LightKey> keys = {}; ///< in any order; of two at one frame the last counts
     QJsonObject extra;
 };
 
@@ -49,12 +65,22 @@ struct Material
     QJsonObject extra;
 };
 
-/// A shadow catcher hinged at the canvas line y, z = 0, pitched towards the viewer.
+/// How a floor lies at one frame.
+struct FloorKey
+{
+    int frame = 0; ///< 0 to 999999
+    double y = 0;
+    double pitch = 25;
+    QJsonObject extra;
+};
+
+/// A shadow catcher hinged at the canvas line y, z = 0, pitched towards the viewer. Keys are as a light's.
 struct Floor
 {
     double y = 0;
     double pitch = 25; ///< degrees, 5 to 85
-    QJsonObject extra;
+    QVector<FloorKey> keys = {};
+    QJsonObject extra = {};
 };
 
 enum class Quality
@@ -84,9 +110,11 @@ struct Scene
     double defaultHeight() const { return qMax(canvas.width(), canvas.height()) / 2.0; }
 };
 
+bool operator==(const LightKey& a, const LightKey& b);
 bool operator==(const AreaLight& a, const AreaLight& b);
 bool operator==(const Ambient& a, const Ambient& b);
 bool operator==(const Material& a, const Material& b);
+bool operator==(const FloorKey& a, const FloorKey& b);
 bool operator==(const Floor& a, const Floor& b);
 bool operator==(const Scene& a, const Scene& b);
 inline bool operator!=(const Scene& a, const Scene& b)

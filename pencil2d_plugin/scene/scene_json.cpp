@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr double Far = 1e5; // canvas pixels
+constexpr int LastFrame = 999999;
 
 const QRegularExpression& colourPattern()
 {
@@ -65,6 +66,11 @@ public:
         }
     }
 
+    template <class T> void listIfAny(const char* name, QVector<T>& values, int most)
+    {
+        list(name, values, most, Need::Optional);
+    }
+
     template <class T>
     void map(const char* /*name*/, QMap<QString, T>& values, int most, const QRegularExpression& keys)
     {
@@ -103,7 +109,8 @@ template <class Fields> void describe(Fields& fields, Canvas& canvas)
 
 } // namespace
 
-template <class Fields> void describe(Fields& fields, AreaLight& light)
+/// What a light and its keys have in common.
+template <class Fields, class Light> void look(Fields& fields, Light& light)
 {
     fields.real("x", light.x, -Far, Far);
     fields.real("y", light.y, -Far, Far);
@@ -111,6 +118,26 @@ template <class Fields> void describe(Fields& fields, AreaLight& light)
     fields.real("size", light.size, 1, Far, Need::Optional);
     colour(fields, light.colour);
     fields.real("power", light.power, 0, 100, Need::Optional);
+}
+
+/// What a floor and its keys have in common.
+template <class Fields, class Plane> void lie(Fields& fields, Plane& floor)
+{
+    fields.real("y", floor.y, -Far, Far);
+    fields.real("pitch", floor.pitch, 5, 85, Need::Optional);
+}
+
+template <class Fields> void describe(Fields& fields, LightKey& key)
+{
+    fields.integer("frame", key.frame, 0, LastFrame);
+    look(fields, key);
+    fields.rest(key.extra);
+}
+
+template <class Fields> void describe(Fields& fields, AreaLight& light)
+{
+    look(fields, light);
+    fields.listIfAny("keys", light.keys, MaxKeys);
     fields.rest(light.extra);
 }
 
@@ -130,10 +157,17 @@ template <class Fields> void describe(Fields& fields, Material& material)
     fields.rest(material.extra);
 }
 
+template <class Fields> void describe(Fields& fields, FloorKey& key)
+{
+    fields.integer("frame", key.frame, 0, LastFrame);
+    lie(fields, key);
+    fields.rest(key.extra);
+}
+
 template <class Fields> void describe(Fields& fields, Floor& floor)
 {
-    fields.real("y", floor.y, -Far, Far);
-    fields.real("pitch", floor.pitch, 5, 85, Need::Optional);
+    lie(fields, floor);
+    fields.listIfAny("keys", floor.keys, MaxKeys);
     fields.rest(floor.extra);
 }
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lampblack.scene import MAX_KEYS
+
 from .case import Case, patched
 from .samples import (
     DIGEST,
@@ -41,6 +43,34 @@ SCENE_OF_LATER = {
 """Every field at a value other than its default, most at an end of their range, and fields that
 this version does not know at every depth."""
 
+KEYED_SCENE = {
+    "canvas": {"width": 640, "height": 480},
+    "lights": [
+        {"x": 7, "y": 7, "z": 7, "tag": "keyed"}
+        | {
+            "keys": [
+                {"frame": 13, "x": 560, "y": 40.5, "z": -120, "size": 31, "power": 0}
+                | {"colour": "#ff8000", "ease": "out"},
+                {"frame": 1, "x": -80, "y": 300, "z": 320, "colour": "#0a0b0c", "power": 2.5},
+                {"frame": 5, "x": 999, "y": 999, "z": 999},
+                {"frame": 24, "x": 560, "y": 40.5, "z": 320.25, "size": 1000, "colour": "#00ff7f"},
+                {"frame": 5, "x": 120.1, "y": 60, "z": 0.1, "colour": "#ffffff", "power": 1e-3},
+            ]
+        },
+        LIGHT | {"keys": [{"frame": 999999, "x": 1, "y": 2, "z": 3}]},
+        LIGHT | {"keys": []},
+        LIGHT,
+    ],
+    "floor": {"y": 1, "wet": True}
+    | {
+        "keys": [
+            {"frame": 20, "y": -10.5, "pitch": 85},
+            {"frame": 6.0, "y": 470, "ease": None},
+        ]
+    },
+}
+"""Keys out of order, two at one frame, one alone, and none."""
+
 
 def accepted() -> Iterator[Case]:
     """Messages to accept."""
@@ -50,6 +80,15 @@ def accepted() -> Iterator[Case]:
     yield from accepted_json()
     yield from accepted_planes()
     yield Case("scene-unknown-fields-are-kept", "client", patched(SET_SCENE, scene=SCENE_OF_LATER))
+    yield Case(
+        "scene-keyed-lights",
+        "client",
+        patched(SET_SCENE, scene=KEYED_SCENE),
+        frames=(0, 1, 2, 4, 5, 6, 7, 9, 12, 13, 18, 20, 23, 24, 25, 999999),
+    )
+    most = [{"frame": frame, "y": 1} for frame in range(MAX_KEYS)]
+    keyed = {**SCENE, "floor": {"y": 1, "keys": most}}
+    yield Case("scene-128-keys", "client", patched(SET_SCENE, scene=keyed))
     lights = [LIGHT] * 4
     yield Case("scene-four-lights", "client", patched(SET_SCENE, scene={**SCENE, "lights": lights}))
     yield Case("revision-largest-integer", "client", patched(SET_SCENE, revision=9007199254740991))

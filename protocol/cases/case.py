@@ -23,6 +23,8 @@ class Case:
     planes: tuple[bytes, ...] = ()
     code: str = ""
     limits: dict[str, int] = field(default_factory=dict)
+    frames: tuple[int, ...] = ()
+    """Frames at which lights and floor are told, of a set_scene with keys."""
 
 
 def compact(tree: Tree) -> bytes:

@@ -3,9 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
-from .case import Case, patched
+from lampblack.scene import MAX_KEYS
+
+from .case import Case, Tree, patched
 from .samples import DRAWING, LIGHT, PIXELS, RENDER, SCENE, SET_SCENE, put_frame
+
+PLACE = {"x": 0, "y": 0, "z": 0}
+
+
+def keyed(keys: Any) -> Tree:
+    """A scene with these keys of a light."""
+    return {**SCENE, "lights": [{**LIGHT, "keys": keys}]}
+
+
+def floor_keyed(keys: Any) -> Tree:
+    """A scene with these keys of a floor."""
+    return {**SCENE, "floor": {"y": 1, "keys": keys}}
 
 
 def rejected_scenes() -> Iterator[Case]:
@@ -25,6 +40,23 @@ def rejected_scenes() -> Iterator[Case]:
         "material-key": {**SCENE, "materials": {"red": {}}},
         "gloss-above-1": {**SCENE, "default_material": {"gloss": 1.5}},
         "floor-edge-on": {**SCENE, "floor": {"y": 1, "pitch": 0}},
+        "keys-null": keyed(None),
+        "keys-object": keyed({}),
+        "key-number": keyed([12]),
+        "key-frame-missing": keyed([PLACE]),
+        "key-frame-negative": keyed([{**PLACE, "frame": -1}]),
+        "key-frame-large": keyed([{**PLACE, "frame": 1000000}]),
+        "key-frame-fraction": keyed([{**PLACE, "frame": 1.5}]),
+        "key-place-missing": keyed([{"frame": 1, "x": 0, "y": 0}]),
+        "key-too-far": keyed([{**PLACE, "frame": 1, "z": -100000.5}]),
+        "key-size-0": keyed([{**PLACE, "frame": 1, "size": 0}]),
+        "key-colour": keyed([{**PLACE, "frame": 1, "colour": "#ABCDEF"}]),
+        "key-power-large": keyed([{**PLACE, "frame": 1, "power": 100.5}]),
+        "129-keys": keyed([{**PLACE, "frame": frame} for frame in range(MAX_KEYS + 1)]),
+        "floor-key-place-missing": floor_keyed([{"frame": 1}]),
+        "floor-key-frame-missing": floor_keyed([{"y": 1}]),
+        "floor-key-edge-on": floor_keyed([{"frame": 1, "y": 1, "pitch": 4.5}]),
+        "floor-129-keys": floor_keyed([{"frame": f, "y": 1} for f in range(MAX_KEYS + 1)]),
         "quality-unknown": {**SCENE, "quality": "best"},
         "canvas-fraction": {"canvas": {"width": 640.5, "height": 480}},
     }.items():

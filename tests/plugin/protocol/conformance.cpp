@@ -4,10 +4,12 @@
 //   lampblack_conformance --encode CASE DIR  decode an accepted case, encode it again, write it to DIR
 //   lampblack_conformance --mutate VECTORS DIR COUNT SEED  write COUNT mutated messages as cases
 //   lampblack_conformance --scene FILE...    one line a scene file: the scene, or {"fault": ...}
+//   lampblack_conformance --scene-at FILE FRAME...  one line a frame: the scene there, between its keys
 //   lampblack_conformance --copy-scene FROM TO  read a scene file and write it again
 //   lampblack_conformance --default-scene WIDTH HEIGHT  the scene that a project starts with
 #include "mutator.h"
 #include "scene/scene_file.h"
+#include "scene/timeline.h"
 #include "vectors.h"
 
 #include <QCoreApplication>
@@ -65,6 +67,18 @@ int printScene(const QString& path)
     return print(toJson(std::get<Scene>(read)));
 }
 
+int printSceneAt(const QString& path, const QStringList& frames)
+{
+    const auto read = readSceneFile(path);
+    const auto* scene = std::get_if<Scene>(&read);
+    int failed = scene == nullptr ? 1 : 0;
+    for (const QString& frame : scene == nullptr ? QStringList() : frames)
+    {
+        failed |= print(toJson(sceneAt(*scene, frame.toInt())));
+    }
+    return failed;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -90,6 +104,10 @@ int main(int argc, char** argv)
     if (mode == QLatin1String("--default-scene"))
     {
         return print(toJson(defaultScene({arguments.value(1).toInt(), arguments.value(2).toInt()})));
+    }
+    if (mode == QLatin1String("--scene-at"))
+    {
+        return printSceneAt(arguments.value(1), arguments.mid(2));
     }
     const bool scenes = mode == QLatin1String("--scene");
     int failed = 0;

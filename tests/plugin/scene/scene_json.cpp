@@ -63,7 +63,7 @@ void SceneJson::roundTrip()
     scene.lights[1].colour = QColor(255, 1, 16);
     scene.ambient.colour = QColor(0, 0, 1);
     scene.materials.insert(QStringLiteral("#dd3f2e"), {false, true, 0.1, 0.02, {}});
-    scene.floor = Floor{411.5, 30, {}};
+    scene.floor = Floor{411.5, 30};
     scene.reliefScale = 0.7;
     scene.quality = Quality::Medium;
     QVERIFY(sceneFromJson(toJson(scene)) == std::optional<Scene>(scene));
@@ -145,7 +145,7 @@ void SceneJson::clampedIsReadable()
     wild.ambient.strength = -1;
     wild.materials.insert(QStringLiteral("no colour"), Material());
     wild.materials.insert(QStringLiteral("#00ff00"), {true, true, 2, 0, {}});
-    wild.floor = Floor{1e6, 90, {}};
+    wild.floor = Floor{1e6, 90};
     wild.reliefScale = 0;
     const Scene tame = clamped(wild);
     QCOMPARE(tame.lights.size(), MaxLights);

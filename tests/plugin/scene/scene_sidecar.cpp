@@ -58,7 +58,7 @@ void SceneSidecar::savedAndFound()
     SceneDocument first;
     first.reset(defaultScene({640, 480}));
     Scene scene = first.scene();
-    scene.floor = Floor{400, 30, {}};
+    scene.floor = Floor{400, 30};
     first.edit(QStringLiteral("Place floor"), scene);
     first.setLayerRoles({{QStringLiteral("Ink"), QStringLiteral("line")}});
     QVERIFY(first.isModified());

@@ -1,0 +1,251 @@
+#include "scene/timeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lampblack
+{
+namespace
+{
+
+double mix(double a, double b, double share)
+{
+    return a + share * (b - a);
+}
+
+/// IEC 61966-2-1, in single precision as composite/colour.py.
+float linear(int channel)
+{
+    const auto s = static_cast<float>(channel / 255.0);
+    return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
+}
+
+int channelOf(float light)
+{
+    const float s = light <= 0.0031308F ? light * 12.92F : 1.055F * std::pow(light, float(1 / 2.4)) - 0.055F;
+    return static_cast<int>(std::nearbyint(s * 255));
+}
+
+int mixChannels(int a, int b, double share)
+{
+    const float first = linear(a);
+    return channelOf(first + static_cast<float>(share) * (linear(b) - first));
+}
+
+QColor mix(const QColor& a, const QColor& b, double share)
+{
+    return {mixChannels(a.red(), b.red(), share), mixChannels(a.green(), b.green(), share),
+            mixChannels(a.blue(), b.blue(), share)};
+}
+
+LightKey mix(const LightKey& a, const LightKey& b, double share)
+{
+    LightKey key = a;
+    for (double LightKey::*number :
+         {&LightKey::x, &LightKey::y, &LightKey::z, &LightKey::size, &LightKey::power})
+        key.*number = mix(a.*number, b.*number, share);
+    key.colour = mix(a.colour, b.colour, share);
+    return key;
+}
+
+FloorKey mix(const FloorKey& a, const FloorKey& b, double share)
+{
+    FloorKey key = a;
+    key.y = mix(a.y, b.y, share);
+    key.pitch = mix(a.pitch, b.pitch, share);
+    return key;
+}
+
+/// What a light has of a key, or a key of a light.
+template <class From, class To> void copyLook(const From& from, To& to)
+{
+    to.x = from.x;
+    to.y = from.y;
+    to.z = from.z;
+    to.size = from.size;
+    to.colour = from.colour;
+    to.power = from.power;
+}
+
+void copy(const LightKey& from, AreaLight& to)
+{
+    copyLook(from, to);
+}
+
+void copy(const AreaLight& from, LightKey& to)
+{
+    copyLook(from, to);
+}
+
+void copy(const FloorKey& from, Floor& to)
+{
+    to.y = from.y;
+    to.pitch = from.pitch;
+}
+
+void copy(const Floor& from, FloorKey& to)
+{
+    to.y = from.y;
+    to.pitch = from.pitch;
+}
+
+double rounded(double value)
+{
+    return std::round(value * 100) / 100;
+}
+
+/// Hundredths are finer than anyone sees, and let a scene full of keys fit into one message.
+void shorten(LightKey& key)
+{
+    for (double LightKey::*number :
+         {&LightKey::x, &LightKey::y, &LightKey::z, &LightKey::size, &LightKey::power})
+        key.*number = rounded(key.*number);
+}
+
+void shorten(FloorKey& key)
+{
+    key.y = rounded(key.y);
+    key.pitch = rounded(key.pitch);
+}
+
+template <class Key> QVector<Key> inOrder(QVector<Key> keys)
+{
+    std::stable_sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.frame < b.frame; });
+    QVector<Key> distinct;
+    for (const Key& key : qAsConst(keys))
+    {
+        if (!distinct.isEmpty() && distinct.last().frame == key.frame)
+            distinct.last() = key;
+        else
+            distinct << key;
+    }
+    return distinct;
+}
+
+template <class Thing> Thing thingAt(const Thing& thing, int frame)
+{
+    if (thing.keys.isEmpty())
+        return thing;
+    const auto keys = inOrder(thing.keys);
+    const auto after =
+        std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame > frame; });
+    Thing still = thing;
+    still.keys.clear();
+    if (after == keys.begin())
+        copy(keys.first(), still);
+    else if (after == keys.end())
+        copy(keys.last(), still);
+    else
+    {
+        const auto before = std::prev(after);
+        const double share = double(frame - before->frame) / (after->frame - before->frame);
+        copy(mix(*before, *after, share), still);
+    }
+    return still;
+}
+
+template <class Thing> QVector<int> framesOf(const Thing& thing)
+{
+    QVector<int> frames;
+    for (const auto& key : inOrder(thing.keys))
+        frames << key.frame;
+    return frames;
+}
+
+template <class Thing> Thing keyed(const Thing& thing, int frame, const Thing& shown)
+{
+    Thing result = thing;
+    result.keys = inOrder(thing.keys);
+    auto& keys = result.keys;
+    auto at = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame >= frame; });
+    if (at == keys.end() || at->frame != frame)
+    {
+        if (keys.size() >= MaxKeys)
+            return thing;
+        at = keys.insert(at, {});
+        at->frame = frame;
+    }
+    copy(shown, *at);
+    shorten(*at);
+    return result;
+}
+
+template <class Thing> Thing changed(const Thing& thing, int frame, const Thing& shown)
+{
+    if (shown == thingAt(thing, frame))
+        return thing;
+    return thing.keys.isEmpty() ? shown : keyed(thing, frame, shown);
+}
+
+template <class Thing> Thing unkeyed(const Thing& thing, int frame)
+{
+    Thing result = thing;
+    auto& keys = result.keys;
+    keys.erase(std::remove_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame == frame; }),
+               keys.end());
+    return keys.isEmpty() ? thingAt(thing, frame) : result;
+}
+
+} // namespace
+
+AreaLight lightAt(const AreaLight& light, int frame)
+{
+    return thingAt(light, frame);
+}
+
+Floor floorAt(const Floor& floor, int frame)
+{
+    return thingAt(floor, frame);
+}
+
+Scene sceneAt(const Scene& scene, int frame)
+{
+    Scene still = scene;
+    for (AreaLight& light : still.lights)
+        light = lightAt(light, frame);
+    if (still.floor)
+        still.floor = floorAt(*still.floor, frame);
+    return still;
+}
+
+QVector<int> keyFrames(const AreaLight& light)
+{
+    return framesOf(light);
+}
+
+QVector<int> keyFrames(const Floor& floor)
+{
+    return framesOf(floor);
+}
+
+AreaLight changedAt(const AreaLight& light, int frame, const AreaLight& shown)
+{
+    return changed(light, frame, shown);
+}
+
+Floor changedAt(const Floor& floor, int frame, const Floor& shown)
+{
+    return changed(floor, frame, shown);
+}
+
+AreaLight withKey(const AreaLight& light, int frame)
+{
+    return keyed(light, frame, lightAt(light, frame));
+}
+
+Floor withKey(const Floor& floor, int frame)
+{
+    return keyed(floor, frame, floorAt(floor, frame));
+}
+
+AreaLight withoutKey(const AreaLight& light, int frame)
+{
+    return unkeyed(light, frame);
+}
+
+Floor withoutKey(const Floor& floor, int frame)
+{
+    return unkeyed(floor, frame);
+}
+
+} // namespace lampblack
