@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from PIL import Image
 
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard, load_network, save_network, shipped_weights
@@ -18,8 +19,10 @@ from lampblack.normals.dataset.triple import Triple
 from lampblack.normals.figure import LUMO
 from lampblack.normals.networks import build_network
 from lampblack.normals.training.checkpoint import Progress
+from lampblack.normals.training.curve import SIZE
 from lampblack.normals.training.figure_loss import angles
 from lampblack.normals.training.figures import figure_of, sample
+from lampblack.normals.training.normalisation import retake_statistics
 from lampblack.normals.training.tiles import view_of
 from lampblack.normals.training.train import TrainingOptions, train
 
@@ -134,6 +137,64 @@ def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> No
     other = NetworkCard("strided-unet")
     with pytest.raises(LampblackError, match="another network"):
         train(data, run, other, TrainingOptions())
+
+
+def test_the_course_of_a_run_can_be_looked_at(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("lampblack.normals.training.train.LOG_STEPS", 2)
+    run = tmp_path / "run"
+    card = NetworkCard("figure-net", (64, 96))
+
+    def stop(progress: Progress) -> None:
+        if progress.step % 2 == 0:
+            raise Enough
+
+    options = TrainingOptions(batch=1, capacity=4)
+    for _ in range(2):
+        with pytest.raises(Enough):
+            train(data, run, card, options, stop)
+        with Image.open(run / "curve.png") as curve, Image.open(run / "examples.png") as examples:
+            assert curve.size == SIZE
+            assert examples.height > 3 * 64
+    lines = (run / "log.jsonl").read_text().splitlines()
+    told = [json.loads(line) for line in lines]
+    assert [row["step"] for row in told] == [2, 4]
+    assert 0 < told[0]["seconds"] < told[1]["seconds"]
+
+
+def test_training_begins_with_given_weights(data: Path, tmp_path: Path) -> None:
+    torch.manual_seed(5)
+    given = tmp_path / "given.safetensors"
+    network = build_network("figure-net")
+    card = NetworkCard("figure-net", (64, 96))
+    save_network(given, network, card)
+
+    def stop(progress: Progress) -> None:
+        raise Enough
+
+    options = TrainingOptions(batch=1, capacity=1, learning_rate=0.0)
+    with pytest.raises(Enough):
+        train(data, tmp_path / "run", card, options, stop, given)
+    begun, _ = load_network(tmp_path / "run" / "network.safetensors")
+    for old, new in zip(network.parameters(), begun.parameters(), strict=True):
+        assert torch.allclose(old, new, atol=1e-3)
+    with pytest.raises(LampblackError, match="figure-net"):
+        train(data, tmp_path / "other", NetworkCard("dilated-unet"), options, stop, given)
+
+
+def test_statistics_are_those_of_the_weights_themselves() -> None:
+    torch.manual_seed(0)
+    network = torch.nn.Sequential(torch.nn.Conv2d(1, 2, 1), torch.nn.BatchNorm2d(2)).eval()
+    shown = [torch.randn(4, 1, 8, 8) * 3 + 1 for _ in range(10)]
+    batches = iter(shown)
+    retake_statistics(network, lambda: network(next(batches)), 10)
+    assert not network.training
+    kept = network[1].state_dict()
+    with torch.no_grad():
+        seen = network[0](torch.cat(shown))
+    assert torch.allclose(kept["running_mean"], seen.mean((0, 2, 3)), atol=1e-4)
+    assert torch.allclose(kept["running_var"], seen.var((0, 2, 3)), rtol=0.05)
 
 
 @pytest.mark.parametrize("architecture", ["dilated-unet", "strided-unet"])

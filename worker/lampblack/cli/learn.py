@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import Enum
 from pathlib import Path
 from typing import Annotated, Literal
@@ -41,7 +42,7 @@ class Network(Enum):
 
 
 CARDS = {
-    Network.LAMPBLACK: NetworkCard("figure-net", (320, 320)),
+    Network.LAMPBLACK: NetworkCard("figure-net", (192, 192), roundness=1.2),
     Network.PAPER: NetworkCard("dilated-unet", (256, 768)),
     Network.HUDON2018: NetworkCard("strided-unet", (256, 768)),
 }
@@ -68,14 +69,40 @@ def train(
     network: Annotated[
         Network, typer.Option("--network", help="Ours, the paper's or its predecessor.")
     ] = Network.LAMPBLACK,
-    minutes: Annotated[float, typer.Option(min=0.01, help="Budget over all runs.")] = 60,
+    minutes: Annotated[
+        float,
+        typer.Option(
+            min=0.01,
+            help="Budget over all runs: processor time of the trainer over its threads, so that "
+            "a busy or suspended machine does not shorten it.",
+        ),
+    ] = 60,
+    threads: Annotated[
+        int, typer.Option(min=1, max=256, help="Of the trainer; one more process loads data.")
+    ] = 1,
+    side: Annotated[
+        int,
+        typer.Option(
+            min=64, max=1024, help="Of the square whose area the canvas of a whole figure has."
+        ),
+    ] = 192,
+    begin_with: Annotated[
+        Path | None,
+        typer.Option("--from", metavar="SAFETENSORS", help="Weights that a new run begins with."),
+    ] = None,
     batch: Annotated[int, typer.Option(min=1, max=256, help="Figures or tiles a step.")] = 12,
     seed: Annotated[int, typer.Option(min=0, help="Of views and weights.")] = 0,
 ) -> None:
     """Train a normal network; run it again to go on after an interruption.
 
+    In the run folder: network.safetensors, ready to use; curve.png; examples.png (drawing, truth,
+    prediction); log.jsonl.
+
     Example: lampblack train dataset/ -o runs/first --minutes 90
     """
+    card = CARDS[network]
+    if network is Network.LAMPBLACK:
+        card = replace(card, figure_px=(side, side))
     with progress_bar() as bar:
         task = bar.add_task("Training", total=round(60 * minutes))
 
@@ -83,8 +110,8 @@ def train(
             told = f"step {progress.step}, {progress.angle:.1f} degrees"
             bar.update(task, completed=round(progress.seconds), description=told)
 
-        options = TrainingOptions(minutes=minutes, batch=batch, seed=seed)
-        weights = run_training(data, output, CARDS[network], options, report)
+        options = TrainingOptions(minutes=minutes, threads=threads, batch=batch, seed=seed)
+        weights = run_training(data, output, card, options, report, begin_with)
     console.print(f"Weights and card: {weights}", markup=False)
 
 

@@ -11,8 +11,10 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor, nn
 
+from ...atomic import atomic_file
 from ...errors import LampblackError
 from ..card import NetworkCard, save_network, write_tensors
+from .curve import save_curve
 
 
 @dataclass
@@ -25,8 +27,9 @@ class Progress:
 
 
 class Checkpoint:
-    """``network.safetensors`` holds the averaged weights, to use; ``checkpoint.safetensors``
-    all that is needed to go on; ``log.jsonl`` the course of the run."""
+    """``network.safetensors`` holds the averaged weights, to use, under ``card``;
+    ``checkpoint.safetensors`` all that is needed to go on; ``log.jsonl`` and ``curve.png`` the
+    course of the run."""
 
     def __init__(
         self,
@@ -34,14 +37,21 @@ class Checkpoint:
         network: nn.Module,
         average: nn.Module,
         optimiser: torch.optim.Optimizer,
+        card: NetworkCard,
     ) -> None:
         self.weights = folder / "network.safetensors"
         self._tensors = folder / "checkpoint.safetensors"
-        self._log = folder / "log.jsonl"
+        self._log, self._curve = folder / "log.jsonl", folder / "curve.png"
+        self._card = card
+        self._course: list[Progress] = []
         self._network, self._average, self._optimiser = network, average, optimiser
 
-    def save(self, progress: Progress, card: NetworkCard) -> None:
-        """Write checkpoint, averaged weights and a line of the log."""
+    def log(self, progress: Progress) -> None:
+        """Take ``progress`` down, to be written with the next checkpoint."""
+        self._course.append(replace(progress))
+
+    def save(self, progress: Progress) -> None:
+        """Write checkpoint, averaged weights, log and curve."""
         moments = {
             f"optimiser.{index}.{name}": torch.as_tensor(value)
             for index, moment in self._optimiser.state_dict()["state"].items()
@@ -52,13 +62,17 @@ class Checkpoint:
         where = torch.tensor([progress.step, progress.seconds, progress.angle], dtype=torch.float64)
         tensors = {n: t.contiguous().clone() for n, t in (named | moments).items()}
         write_tensors(self._tensors, tensors | {"progress": where})
-        training = (card.training or {}) | {
+        training = (self._card.training or {}) | {
             "steps": progress.step,
             "minutes": round(progress.seconds / 60, 1),
         }
-        save_network(self.weights, self._average, replace(card, training=training))
-        with self._log.open("ab") as log:
-            log.write(msgspec.json.encode(progress) + b"\n")
+        save_network(self.weights, self._average, replace(self._card, training=training))
+        with atomic_file(self._log) as log:
+            log.writelines(msgspec.json.encode(past) + b"\n" for past in self._course)
+        if self._course:
+            minutes = [past.seconds / 60 for past in self._course]
+            angles = [past.angle for past in self._course]
+            save_curve(self._curve, minutes, angles, self._card.architecture)
 
     def load(self) -> Progress:
         """Go on from the last checkpoint, if there is one.
@@ -75,7 +89,10 @@ class Checkpoint:
                     {n.removeprefix(prefix): t for n, t in tensors.items() if n.startswith(prefix)}
                 )
             step, seconds, angle = tensors["progress"].tolist()
-        except (OSError, SafetensorError, RuntimeError, KeyError) as error:
+            if self._log.exists():
+                lines = self._log.read_bytes().splitlines()
+                self._course = [msgspec.json.decode(line, type=Progress) for line in lines]
+        except (OSError, SafetensorError, RuntimeError, KeyError, msgspec.DecodeError) as error:
             raise LampblackError(
                 f"The checkpoint {self._tensors} is damaged, or of another network.",
                 "Remove it to begin anew.",

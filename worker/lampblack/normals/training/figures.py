@@ -14,8 +14,10 @@ from torch import nn
 
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
 from ..figure import COARSE, SIDEWAYS, canvas_for, coarse_maps, lay, shape_maps
+from .example import Example, looked_at
 from .figure_loss import Batch, Loss, figure_loss
 from .stream import Stream
+from .stretch import random_stretch, stretched
 
 
 @dataclass(frozen=True)
@@ -32,17 +34,18 @@ class Figure:
 
 
 def figure_of(triple: Triple, rng: np.random.Generator, side: int) -> Figure:
-    """Lay the triple's figure on its canvas, a little smaller or larger each time."""
-    rows, columns = np.flatnonzero(triple.mask.any(1)), np.flatnonzero(triple.mask.any(0))
-    box = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    """Lay the triple's figure on its canvas, each time of another size and stretched."""
+    box = _box(triple.mask)
     inside = triple.mask[box].astype(np.float32)
-    canvas = canvas_for(inside.shape, side, float(rng.uniform(0.85, 1)))
     planes = [triple.normals[box].astype(np.float32) / 127 * inside[..., None]]
     planes += [triple.drawings[:, *box].transpose(1, 2, 0) / np.float32(255) * inside[..., None]]
     depth = triple.depth[box] / np.float32(DEPTH_STEPS * max(inside.shape)) * inside
     planes += [depth[..., None], inside[..., None]]
     planes += [(triple.occlusion[box] == near)[..., None] for near in (IN_FRONT, BEHIND)]
-    laid = lay(np.concatenate(planes, axis=2, dtype=np.float32), canvas)
+    picture = stretched(np.concatenate(planes, axis=2, dtype=np.float32), random_stretch(rng))
+    picture = picture[_box(picture[..., -3] > 0.5)]
+    canvas = canvas_for(picture.shape[:2], side, float(rng.uniform(0.85, 1)))
+    laid = lay(picture, canvas)
     count = len(triple.drawings)
     normals, inks, rest = np.split(laid, [3, 3 + count], axis=2)
     share = rest[..., 1:2]
@@ -64,13 +67,18 @@ def figure_of(triple: Triple, rng: np.random.Generator, side: int) -> Figure:
     )
 
 
+def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
 class FigureCourse:
     """Batches of whole figures, all of one canvas shape, half of them mirrored, and their loss.
 
     Use as a context manager.
     """
 
-    def __init__(self, data: Path, side: int, seed: int, capacity: int = 3000) -> None:
+    def __init__(self, data: Path, side: int, seed: int, capacity: int = 2000) -> None:
         self._rng = np.random.default_rng(seed)
         prepare = partial(figure_of, side=side)
         self._stream = Stream(data, prepare, _canvas_shape, seed=seed, capacity=capacity)
@@ -84,10 +92,20 @@ class FigureCourse:
 
     def loss(self, network: nn.Module, size: int) -> Loss:
         """What ``network`` makes of the next ``size`` figures."""
-        batch = stack([sample(f, self._rng) for f in self._stream.take(size, self._rng)])
+        batch = self._batch(size)
         with torch.autocast("cpu", torch.bfloat16):
             found = network(batch.fine, batch.coarse)
         return figure_loss(found, batch)
+
+    def examples(self, network: nn.Module, size: int) -> list[Example]:
+        """What ``network``, in evaluation mode, makes of ``size`` figures, to look at."""
+        batch = self._batch(size)
+        with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+            vectors, _, _ = network(batch.fine, batch.coarse)
+        return looked_at(batch.fine[:, 0], batch.fine[:, 1], batch.normals, vectors)
+
+    def _batch(self, size: int) -> Batch:
+        return stack([sample(f, self._rng) for f in self._stream.take(size, self._rng)])
 
 
 def _canvas_shape(figure: Figure) -> tuple[int, ...]:

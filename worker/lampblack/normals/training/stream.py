@@ -21,6 +21,9 @@ from ..dataset.triple import Triple
 
 RESCAN_SECONDS = 60
 FEWEST = 64
+RENEWED = 2
+"""Examples taken in with each batch: about what one loader makes meanwhile."""
+
 _PATIENCE_SECONDS = 30
 
 Example = TypeVar("Example")
@@ -46,7 +49,7 @@ class Stream(Generic[Example]):
         kind: Callable[[Example], object],
         *,
         seed: int,
-        capacity: int = 3000,
+        capacity: int = 2000,
     ) -> None:
         if not entries_by_source(data):
             raise LampblackError(
@@ -78,7 +81,7 @@ class Stream(Generic[Example]):
 
     def take(self, size: int, rng: np.random.Generator) -> list[Example]:
         """``size`` examples of one kind, drawn at random; a few new ones are taken in."""
-        self._renew(max(1, size // 3), rng)
+        self._renew(RENEWED, rng)
         kinds = list(self._kept)
         counts = np.array([len(self._kept[kind]) for kind in kinds])
         kept = self._kept[kinds[rng.choice(len(kinds), p=counts / counts.sum())]]

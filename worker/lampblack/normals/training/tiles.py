@@ -14,6 +14,7 @@ from torch import Tensor, nn
 
 from ..dataset.triple import Triple
 from ..tiles import ALIGNMENT, TILE, TileSource
+from .example import Example, looked_at
 from .figure_loss import Loss, angles
 from .stream import Stream
 
@@ -62,7 +63,7 @@ def view_of(triple: Triple, rng: np.random.Generator) -> View:
 class TileCourse:
     """Batches of tiles, and their loss; a context manager."""
 
-    def __init__(self, data: Path, seed: int, capacity: int = 3000) -> None:
+    def __init__(self, data: Path, seed: int, capacity: int = 2000) -> None:
         self._rng = np.random.default_rng(seed)
         self._stream = Stream(data, view_of, _one_kind, seed=seed, capacity=capacity)
 
@@ -75,16 +76,27 @@ class TileCourse:
 
     def loss(self, network: nn.Module, size: int) -> Loss:
         """What ``network`` makes of the next ``size`` tiles."""
-        cut = [view.tile(self._rng) for view in self._stream.take(size, self._rng)]
-        tiles = torch.from_numpy(np.stack([tile for tile, _ in cut]))
-        truth = torch.from_numpy(np.stack([normals for _, normals in cut]))
+        tiles, truth = self._batch(size)
         mask = tiles[:, 3:4]
         with torch.autocast("cpu", torch.bfloat16):
-            predicted = network(tiles.contiguous(memory_format=torch.channels_last))
+            predicted = network(tiles)
         with torch.no_grad():
             unit = nn.functional.normalize(predicted.float(), dim=1)
             angle = (angles(unit, truth) * mask[:, 0]).sum() / mask.sum().clamp(min=1)
         return Loss(normal_loss(predicted, truth, mask), math.degrees(float(angle)))
+
+    def examples(self, network: nn.Module, size: int) -> list[Example]:
+        """What ``network``, in evaluation mode, makes of ``size`` tiles, to look at."""
+        tiles, truth = self._batch(size)
+        with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+            predicted = network(tiles)
+        return looked_at(tiles[:, 0], tiles[:, 3], truth, predicted)
+
+    def _batch(self, size: int) -> tuple[Tensor, Tensor]:
+        cut = [view.tile(self._rng) for view in self._stream.take(size, self._rng)]
+        tiles = torch.from_numpy(np.stack([tile for tile, _ in cut]))
+        truth = torch.from_numpy(np.stack([normals for _, normals in cut]))
+        return tiles.contiguous(memory_format=torch.channels_last), truth
 
 
 def _one_kind(view: View) -> None:

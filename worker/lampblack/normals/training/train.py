@@ -8,38 +8,47 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import torch
 from torch import nn
 
-from ...errors import OutputError
-from ..card import NetworkCard
+from ...errors import LampblackError, OutputError
+from ..card import NetworkCard, load_network
 from ..networks import build_network
 from .checkpoint import Checkpoint, Progress
+from .example import save_examples
 from .figures import FigureCourse
+from .normalisation import retake_statistics
 from .tiles import TileCourse
 
 FIGURES = ("figure-net",)
 """Architectures that see whole figures; the others see tiles."""
 
-_LONGEST_STEP = 20.0
-"""Seconds; a run that was suspended has not trained meanwhile."""
+EXAMPLES = 8
+STATISTICS_ROUNDS = 20
+LOG_STEPS = 50
+_ANGLE_STEPS = 100
+"""Steps over which the mean angle is told."""
 
 
 @dataclass(frozen=True)
 class TrainingOptions:
-    """``minutes`` is the whole budget, over all runs; over the last ``decay`` of it the learning
-    rate falls to 0. ``capacity`` examples are kept in memory."""
+    """``minutes`` of processor time of each of ``threads`` are the whole budget, over all runs:
+    a busy or suspended machine does not shorten it. Over the last ``decay`` of it the learning
+    rate falls to 0. The weights written are an average with a memory of ``1 / (1 - ema)`` steps.
+    ``capacity`` examples are kept in memory."""
 
     minutes: float = 60.0
+    threads: int = 1
     batch: int = 12
     learning_rate: float = 1e-3
     warm_up: int = 200
     decay: float = 0.4
     ema: float = 0.998
     checkpoint_minutes: float = 3.0
-    capacity: int = 3000
+    capacity: int = 2000
     seed: int = 0
 
 
@@ -49,12 +58,18 @@ def train(
     card: NetworkCard,
     options: TrainingOptions,
     report: Callable[[Progress], None] = lambda progress: None,
+    begin_with: Path | None = None,
 ) -> Path:
     """Train until the budget is spent; returns the averaged weights in ``output``.
 
+    Args:
+        begin_with: weights of the same architecture, for a run that begins.
+
     Raises:
-        LampblackError: no data set, or a run folder that cannot be used.
+        LampblackError: no data set, weights of another architecture, or a run folder that
+            cannot be used.
     """
+    torch.set_num_threads(options.threads)
     try:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -62,20 +77,26 @@ def train(
             f"The run folder {output} cannot be made.", "Choose another.", str(error)
         ) from error
     torch.manual_seed(options.seed)
-    network = build_network(card.architecture).train()
+    network = _first_weights(card, begin_with).train()
     average = build_network(card.architecture)
     average.load_state_dict(network.state_dict())
     optimiser = torch.optim.AdamW(
-        network.parameters(), lr=0.0, weight_decay=0.02, betas=(0.9, 0.98)
+        network.parameters(), lr=0.0, weight_decay=0.02, betas=(0.9, 0.98), fused=True
     )
-    card = replace(card, training={"batch": options.batch, "seed": options.seed})
-    checkpoint = Checkpoint(output, network, average, optimiser)
+    told = {"batch": options.batch, "seed": options.seed, "threads": options.threads}
+    checkpoint = Checkpoint(output, network, average, optimiser, replace(card, training=told))
     progress = checkpoint.load()
-    saved = time.monotonic()
     with _course(data, card, options, options.seed * 1_000_003 + progress.step) as course:
+
+        def keep() -> None:
+            see = partial(course.loss, average, options.batch)
+            retake_statistics(average, see, STATISTICS_ROUNDS)
+            checkpoint.save(progress)
+            save_examples(output / "examples.png", course.examples(average, EXAMPLES))
+
+        earlier, began, saved = progress.seconds, time.process_time(), time.monotonic()
         try:
             while progress.seconds < 60 * options.minutes:
-                started = time.monotonic()
                 for group in optimiser.param_groups:
                     group["lr"] = _learning_rate(options, progress)
                 loss = course.loss(network, options.batch)
@@ -85,15 +106,32 @@ def train(
                 optimiser.step()
                 _follow(average, network, min(options.ema, progress.step / (progress.step + 10)))
                 progress.step += 1
-                progress.angle += (loss.angle - progress.angle) * max(0.01, 1 / progress.step)
-                progress.seconds += min(time.monotonic() - started, _LONGEST_STEP)
+                progress.angle += (loss.angle - progress.angle) * max(
+                    1 / _ANGLE_STEPS, 1 / progress.step
+                )
+                progress.seconds = earlier + (time.process_time() - began) / options.threads
+                if progress.step % LOG_STEPS == 0:
+                    checkpoint.log(progress)
                 report(progress)
                 if time.monotonic() - saved > 60 * options.checkpoint_minutes:
-                    checkpoint.save(progress, card)
+                    keep()
                     saved = time.monotonic()
         finally:
-            checkpoint.save(progress, card)
+            if progress.step:
+                keep()
     return checkpoint.weights
+
+
+def _first_weights(card: NetworkCard, begin_with: Path | None) -> nn.Module:
+    if begin_with is None:
+        return build_network(card.architecture)
+    network, given = load_network(begin_with)
+    if given.architecture != card.architecture:
+        raise LampblackError(
+            f"{begin_with} holds weights of {given.architecture}, not of {card.architecture}.",
+            "Name the --network that they are for.",
+        )
+    return network
 
 
 def _course(
