@@ -1,4 +1,5 @@
-"""Speed of the tool inside the real Pencil2D: ``python tests/measure_window.py [--drags 1000]``.
+"""Speed of the tool inside the real Pencil2D: ``python tests/measure_window.py``; with ``--drags
+1000``, its memory and its worker's over so many drags instead.
 
 Prints JSON. Stalls are turns of Qt's event loop that took longer than the bound, by the clock and
 by the thread's own processor time; Pencil2D's own work in them is part of the figures, so the same
@@ -19,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 
 from lampblack.scene import default_scene, encode_scene
 from window import ROOT, Display, Pencil2D, missing, pencil2d, wait_until
@@ -46,10 +48,13 @@ def circle(window: Pencil2D, turns: float, steps: int) -> list[tuple[float, floa
     ]
 
 
-def resident(window: Pencil2D) -> int:
-    """MiB of Pencil2D itself."""
-    status = Path(f"/proc/{window.process.pid}/status").read_text()
-    return int(status.split("VmRSS:")[1].split()[0]) // 1024
+def resident(window: Pencil2D) -> dict[str, int]:
+    """MiB of Pencil2D itself, and of the processes it started."""
+    own = psutil.Process(window.process.pid)
+    return {
+        "pencil2d": own.memory_info().rss >> 20,
+        "worker": sum(each.memory_info().rss for each in own.children(recursive=True)) >> 20,
+    }
 
 
 def drag(window: Pencil2D, turns: float, steps: int) -> None:
@@ -71,11 +76,8 @@ def start_up(display: Display, folder: Path, project: Path) -> dict[str, float]:
     }
 
 
-def measure(display: Display, folder: Path, drags: int) -> dict[str, Any]:
-    project = folder / "walk.pclx"
-    shutil.copy(ROOT / "examples" / "lamplighter.pclx", project)
-    scene = encode_scene(default_scene(*SIZE))
-    (folder / "walk.pclx.lampblack.json").write_bytes(scene)
+def measure(display: Display, folder: Path) -> dict[str, Any]:
+    project = example_in(folder)
     found: dict[str, Any] = {"start_up_s": start_up(display, folder, project)}
     with pencil2d(display, folder / "run", project) as window:
         window.click("pencilButton")
@@ -110,8 +112,6 @@ def measure(display: Display, folder: Path, drags: int) -> dict[str, Any]:
         time.sleep(8)
         found["generating"] = window.stalls()
         found["stroke"] = stroke(window)
-        if drags:
-            found["resident_mib"] = endurance(window, drags)
     return found
 
 
@@ -126,18 +126,32 @@ def stroke(window: Pencil2D) -> dict[str, Any]:
     return window.stalls()
 
 
-def endurance(window: Pencil2D, drags: int) -> list[int]:
-    """Resident MiB at every tenth of so many short drags."""
-    window.click("lampblackButton")
-    settle(window)
-    seen = [resident(window)]
-    for index in range(drags):
-        path = circle(window, 0.02, 6)
-        for _ in window.drag(path, pause=0.01):
-            pass
-        if (index + 1) % max(1, drags // 10) == 0:
-            seen.append(resident(window))
-    return seen
+def endurance(display: Display, folder: Path, drags: int) -> dict[str, Any]:
+    """Resident memory at every tenth of so many short drags, each to lit pixels."""
+    with pencil2d(display, folder / "run", example_in(folder)) as window:
+        window.click("lampblackButton")
+        settle(window)
+        seen, pictures = [resident(window)], 0
+        for index in range(drags):
+            (x, y), *path = circle(window, 0.02, 6)
+            moves = [part for p in path for part in ("mousemove", *map(round, p), "sleep", 0.016)]
+            start = ("mousemove", round(x), round(y), "mousedown", 1, "sleep", 0.016)
+            display.do(*start, *moves, "mouseup", 1, "sleep", 0.05)
+            if (index + 1) % max(1, drags // 10) == 0:
+                pictures += len(window.latency("lampblack"))
+                window.stalls()  # the probe keeps each turn until it is asked
+                seen.append(resident(window))
+                sys.stderr.write(f"{index + 1} of {drags}: {seen[-1]}\n")
+        return {"drags": drags, "pictures": pictures, "resident_mib": seen}
+
+
+def example_in(folder: Path) -> Path:
+    """A copy of the example with the light of a new scene."""
+    project = folder / "walk.pclx"
+    shutil.copy(ROOT / "examples" / "lamplighter.pclx", project)
+    scene = encode_scene(default_scene(*SIZE))
+    (folder / "walk.pclx.lampblack.json").write_bytes(scene)
+    return project
 
 
 def main() -> int:
@@ -152,7 +166,10 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         display = Display(Path(folder))
         try:
-            found = measure(display, Path(folder), arguments.drags)
+            if arguments.drags:
+                found = endurance(display, Path(folder), arguments.drags)
+            else:
+                found = measure(display, Path(folder))
         finally:
             display.close()
     sys.stdout.write(json.dumps(found, indent=2) + "\n")
