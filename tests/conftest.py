@@ -17,6 +17,7 @@ from lampblack.cache import ArrayCache
 from lampblack.cli import main
 from lampblack.drawing import save_picture
 from lampblack.pipeline import Pipeline
+from lampblack.render import LightPasses, Passes
 
 
 @pytest.fixture(autouse=True)
@@ -84,11 +85,16 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Stands in for the renderer where a test is about everything else."""
     rendered: list[str] = []
 
-    def render(self: Pipeline, drawing: object, scene: object, beside: object) -> object:
+    def light(self: Pipeline, *given: object, **named: object) -> Passes:
         rendered.append("frame")
-        return drawing.pixels  # type: ignore[attr-defined]
+        dark = np.zeros((1, 1, 3), np.float32)
+        return Passes((), LightPasses(dark, dark))
 
-    monkeypatch.setattr(Pipeline, "render", render)
+    monkeypatch.setattr(Pipeline, "surface", lambda *given: None)
+    monkeypatch.setattr(Pipeline, "light", light)
+    monkeypatch.setattr(
+        "lampblack.finals.light.composite", lambda drawing, passes, scene: drawing.pixels
+    )
     return rendered
 
 

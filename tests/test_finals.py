@@ -296,16 +296,16 @@ def test_memory_does_not_grow_with_the_frames(
     """500 frames of 250 drawings; a picture is 150 KiB, so that keeping them would show."""
     project, frames = walk(tmp_path, [n % 250 for n in range(500)]), 500
     held: list[int] = []
-    original = Pipeline.render
+    original = Pipeline.light
 
-    def render(self: Pipeline, drawing: object, scene: object, beside: object) -> object:
+    def light(self: Pipeline, *given: object, **named: object) -> object:
         held.append(tracemalloc.get_traced_memory()[0])
-        return original(self, drawing, scene, beside)  # type: ignore[arg-type]
+        return original(self, *given, **named)  # type: ignore[arg-type]
 
     tracemalloc.start()
     try:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(Pipeline, "render", render)
+            patch.setattr(Pipeline, "light", light)
             assert run("render", project, "-o", tmp_path / "lit").code == 0
     finally:
         tracemalloc.stop()

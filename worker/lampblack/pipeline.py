@@ -18,7 +18,14 @@ from .drawing import Drawing
 from .normals.predict import DEFAULT_GRIDS, NormalPredictor
 from .normals.temporal.miniature import Miniature, miniature
 from .normals.temporal.steady import Beside, Steadier
-from .render import QUALITIES, Passes, RenderChild, frame_request
+from .render import (
+    QUALITIES,
+    Passes,
+    RenderChild,
+    Surface,
+    frame_request,
+    frame_surface,
+)
 from .render.tracings import Tracings
 from .scene import Scene
 from .surface import Relief, build_relief, guided_filter, solve
@@ -78,6 +85,11 @@ class Pipeline:
     def child(self) -> RenderChild:
         """The renderer, started when first needed."""
         return RenderChild(self._niceness)
+
+    def interrupt(self) -> None:
+        """End a render at hand, which then raises; any thread may call this."""
+        if "child" in self.__dict__:
+            self.child.kill()
 
     def rest(self) -> None:
         """End the renderer and let go of its light; the next frame brings both back."""
@@ -164,25 +176,32 @@ class Pipeline:
         )
         return replace(relief, vertices=relief.vertices * np.float32(step))
 
-    def light(self, drawing: Drawing, scene: Scene, beside: Beside | None = None) -> Passes:
-        """Trace the lights of ``scene`` over the drawing's relief, but for those that the last
-        call traced over the very same drawing."""
-        return self._tracings.complete(
-            drawing,
-            scene,
-            lambda asked, ambient: self._trace(drawing, asked, beside, ambient=ambient),
-        )
-
-    def _trace(
-        self, drawing: Drawing, scene: Scene, beside: Beside | None, *, ambient: bool
-    ) -> Passes:
+    def surface(self, drawing: Drawing, scene: Scene, beside: Beside | None = None) -> Surface:
+        """What the lights of ``scene`` fall on: its relief, quality and materials count."""
         relief = self.relief(
             drawing,
             relief_scale=scene.relief_scale,
             stride=QUALITIES[scene.quality].mesh_stride,
             beside=beside,
         )
-        return self.child.render(replace(frame_request(drawing, relief, scene), ambient=ambient))
+        return frame_surface(drawing, relief, scene)
+
+    def light(
+        self,
+        drawing: Drawing,
+        scene: Scene,
+        beside: Beside | None = None,
+        surface: Surface | None = None,
+    ) -> Passes:
+        """Trace the lights of ``scene`` over the drawing's surface, but for those that the last
+        call traced over the very same drawing. A ``surface`` that is at hand is not made anew;
+        with one, a thread of its own may trace while another makes the next."""
+
+        def trace(asked: Scene, ambient: bool) -> Passes:
+            found = surface or self.surface(drawing, asked, beside)
+            return self.child.render(replace(frame_request(drawing, found, asked), ambient=ambient))
+
+        return self._tracings.complete(drawing, scene, trace)
 
     def render(
         self, drawing: Drawing, scene: Scene, beside: Beside | None = None

@@ -14,7 +14,7 @@ from ..cache import ArrayCache
 from ..composite import composite
 from ..drawing import take_apart
 from ..pipeline import Pipeline
-from ..render import QUALITIES, frame_request
+from ..render import frame_request
 from ..render.quality import REFERENCE
 from ..scene import Floor, Scene
 from .memory import peak_gib
@@ -41,12 +41,8 @@ def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) ->
             pipeline.render(drawing, _moved(staged))
             figures[f"seconds_relight_{name}"] = round(time.perf_counter() - begin, 2)
             if reference:
-                relief = pipeline.relief(
-                    drawing,
-                    relief_scale=staged.relief_scale,
-                    stride=QUALITIES["final"].mesh_stride,
-                )
-                request = replace(frame_request(drawing, relief, staged), quality=REFERENCE)
+                surface = pipeline.surface(drawing, staged)
+                request = replace(frame_request(drawing, surface, staged), quality=REFERENCE)
                 truth = composite(drawing, pipeline.child.render(request), staged)
                 figures[f"rmse_final_{name}"] = round(_rmse(result, truth), 5)
     return figures | {"peak_memory_gib": peak_gib()}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..camera import look_through
 from ..composite.colour import linear
 from ..composite.composite import composite_unrounded, figure_light, weigh
 from ..composite.resample import Band
@@ -14,6 +16,7 @@ from ..composite.shadow import floor_ratio
 from ..drawing import Drawing
 from ..render import Passes
 from ..scene import MAX_LIGHTS, Scene
+from .shot import Shot, ShotFrame
 
 Floats = NDArray[np.float32]
 
@@ -79,9 +82,41 @@ def make_layers(
     )
 
 
+def seen_layers(shot: Shot, frame: ShotFrame, lit: Layers | NDArray[np.uint8]) -> dict[str, Floats]:
+    """What an EXR of ``frame`` holds, by name: the layers as its camera sees them; of a cel on
+    which nothing is drawn, (H, W, 4) sRGB, the picture alone."""
+    if not isinstance(lit, Layers):
+        return {"": _scene_linear(shot.finish(frame, (lit / np.float32(255))))}
+    camera = shot.camera(frame)
+    size = lit.lit.shape[1], lit.lit.shape[0]
+    if shot.canvas is not None:
+        size = shot.canvas.width, shot.canvas.height
+    a, b, _, d, e, _ = camera
+    scale = np.float32(math.sqrt(abs(a * e - b * d)))
+    # Directions turn with the camera; normals count y upwards, pixels downwards.
+    turn = np.array([[a, -b, 0], [-d, e, 0], [0, 0, scale]], np.float32) / scale
+    seen = {
+        **lit.colour,
+        "shadow": 1 - lit.shadow,  # past the cel's edges there is none
+        "ink": lit.ink,
+        "normal": lit.normal @ turn.T,
+        "depth": lit.depth * scale,
+    }
+    layers = {name: look_through(layer, camera, size) for name, layer in seen.items()}
+    layers["shadow"] = 1 - layers["shadow"]
+    return {"": _scene_linear(shot.finish(frame, lit.lit)), **layers}
+
+
 def _spread(height: Floats, shape: tuple[int, int]) -> Floats:
     """A height solved at a fraction of the size, at full size, (H, W, 1)."""
     step = -(-shape[0] // height.shape[0])
     whole = height.repeat(step, axis=0).repeat(step, axis=1)[: shape[0], : shape[1]]
     rows, columns = shape[0] - whole.shape[0], shape[1] - whole.shape[1]
     return np.pad(whole, ((0, rows), (0, columns)), "edge")[..., None]
+
+
+def _scene_linear(picture: Floats) -> Floats:
+    """(H, W, 4) sRGB, straight, to scene-linear, premultiplied."""
+    light = linear(picture[..., :3]) * picture[..., 3:]
+    whole: Floats = np.concatenate([light, picture[..., 3:]], axis=2)
+    return whole

@@ -1,34 +1,37 @@
-"""Light frames of a shot into files: each distinct drawing once, however often it is held."""
+"""Light frames of a shot into files: each distinct drawing once, however often it is held.
+
+Three things go on at once: the surface of the next drawing is made, the renderer traces this one,
+and the last is composited and written.
+"""
 
 from __future__ import annotations
 
-import math
+import shutil
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import __version__
-from ..cache import digest
-from ..camera import look_through
-from ..composite.colour import linear
-from ..errors import LampblackError, LampblackWarning, NothingDrawnError, OutputError
-from ..normals.card import shipped_weights
+from ..atomic import atomic_path
+from ..composite import composite
+from ..errors import LampblackError, LampblackWarning, OutputError, RenderError
 from ..pipeline import Pipeline
-from ..scene import Canvas, Scene, encode_scene
-from ..timeline import scene_at
+from .ahead import ahead
 from .exr import save_exr
-from .layers import Layers, make_layers
+from .layers import Layers, make_layers, seen_layers
 from .order import OpenOrder
 from .png import save_png
-from .shot import Cel, ShotFrame, by_drawing
-from .surroundings import Surroundings
+from .shot import ShotFrame
+from .work import Work, plan
 
-Floats = NDArray[np.float32]
-Lit = NDArray[np.uint8] | Layers
+ATTEMPTS = 2
+"""Traces of one drawing before its frames have failed: a renderer may be lost."""
+OVERLAP_PX = 4_000_000
+"""Larger drawings are made one after another: several at once would take too much memory."""
 
 
 @dataclass
@@ -60,169 +63,133 @@ def light_frames(
 
     A frame whose file was made from the same drawing, surroundings and scene is left alone, so
     a job that was stopped goes on where it was. A frame that fails is told and passed over;
-    when nothing can be written, the rest fails too.
+    when nothing can be written, the rest fails too. ``pipeline`` is used from other threads
+    until this returns.
     """
-    job = _Job(order, pipeline)
     wanted = order.frames if frames is None else frames
-    for group in by_drawing(wanted):
-        held = _Held(job)
-        for frame in group:
-            error = None
-            try:
-                if job.full is not None:
-                    raise job.full
-                held.light(frame)
-                job.outcome.done.append(frame)
-            except LampblackError as fault:
-                error = fault
-                job.outcome.failed.append((frame, error))
-                if isinstance(error, OutputError):
-                    job.full = error
-            listener(frame, error)
+    job = _Job(order, pipeline, listener)
+    works = plan(order, pipeline, wanted, job.check)
+    if _overlapping(order, wanted):
+        works = ahead(job.traced(ahead(works)), job.stop)
+    else:
+        works = job.traced(works)
+    with closing(works):
+        for work in works:
+            job.finish(work)
     return job.outcome
+
+
+def _overlapping(order: OpenOrder, wanted: Sequence[ShotFrame]) -> bool:
+    if order.shot.canvas is not None:
+        return order.shot.canvas.width * order.shot.canvas.height <= OVERLAP_PX
+    try:
+        return order.shot.cel(wanted[0]).pixels[..., 0].size <= OVERLAP_PX if wanted else False
+    except LampblackError:
+        return True  # told when its turn comes
+
+
+class _Stopped(Exception):
+    """Ends the threads of a job that was interrupted."""
 
 
 @dataclass
 class _Job:
     order: OpenOrder
     pipeline: Pipeline
+    listener: Listener
     outcome: Outcome = field(default_factory=Outcome)
     full: OutputError | None = None
-    canvas: Canvas | None = None
-    made_by: str = field(init=False)
-    surroundings: Surroundings = field(init=False)
+    stopped: bool = False
 
-    def __post_init__(self) -> None:
-        self.made_by = digest(__version__, self.order.options, _weights())
-        self.surroundings = Surroundings(self.order.shot, self.pipeline)
+    def stop(self) -> None:
+        """Nobody waits for the light any more."""
+        self.stopped = True
+        self.pipeline.interrupt()
 
+    def check(self) -> None:
+        """Raise if nobody waits any more."""
+        if self.stopped:
+            raise _Stopped
 
-@dataclass
-class _Held:
-    """One drawing, and what has been made of it for the frames that hold it."""
+    def traced(self, works: Generator[Work, None, None]) -> Generator[Work, None, None]:
+        """``works`` with their light."""
+        with closing(works):
+            for work in works:
+                self._trace(work)
+                yield work
 
-    job: _Job
-    _cel: Cel | None = None
-    _lit: tuple[Scene, Lit] | None = None
-
-    def light(self, frame: ShotFrame) -> None:
-        order = self.job.order
-        canvas = order.shot.canvas
-        if canvas is None:
-            height, width = self._pixels(frame).shape[:2]
-            canvas = Canvas(width, height)
-        scene = order.staging.scene(canvas)
-        self._check_size(frame, canvas, scene)
-        scene = scene_at(scene, self._time(frame))
-        names = frame.drawing, self.job.surroundings.names(frame), frame.setting
-        made_from = (self.job.made_by, order.targets.kind, *names)
-        stamp = digest(*made_from, canvas, encode_scene(scene))
-        if not order.again and order.targets.holds(frame, stamp):
-            self.job.outcome.kept.append(frame)
+    def _trace(self, work: Work) -> None:
+        if work.model is None or work.scene is None:
             return
-        self._write(frame, self._made(frame, scene), stamp)
+        drawing, surface = work.model.drawing, work.model.surface
+        for _ in range(ATTEMPTS):
+            if self.full is not None or self.stopped:
+                return
+            try:
+                work.passes = self.pipeline.light(drawing, work.scene, surface=surface)
+                work.error = None
+                return
+            except RenderError as error:
+                work.error = error
 
-    def _made(self, frame: ShotFrame, scene: Scene) -> Lit:
-        """The cel, lit; passed through if nothing is drawn on it."""
-        pixels = self._pixels(frame)
-        size = pixels.shape[1], pixels.shape[0]
-        placed = self.job.order.shot.place(scene, size)
-        if self._lit is not None and self._lit[0] == placed:
-            return self._lit[1]
-        try:
-            lit = self._render(frame, placed)
-        except NothingDrawnError as error:
-            if self.job.order.single:
-                raise
-            warnings.warn(
-                f"{frame.name}: {error.what} Passed through unlit.", LampblackWarning, stacklevel=2
-            )
-            self.job.outcome.unlit.append(frame)
-            return pixels
-        self._lit = placed, lit
-        return lit
+    def finish(self, work: Work) -> None:
+        """Write what was lit, and tell what became of each frame."""
+        lit: NDArray[np.uint8] | Layers | None = None
+        written: dict[str, Path] = {}
+        for frame, stamp in work.frames:
+            error = self.full or work.error
+            try:
+                if error is None and not work.kept:
+                    target = self.order.targets.path(frame)
+                    if stamp in written:
+                        _copy(written[stamp], target)
+                    else:
+                        lit = self._lit(work) if lit is None else lit
+                        self._write(frame, lit, stamp)
+                        written[stamp] = target
+            except LampblackError as fault:
+                error = fault
+                if isinstance(error, OutputError):
+                    self.full = error
+            self._tell(work, frame, error)
 
-    def _render(self, frame: ShotFrame, scene: Scene) -> Lit:
-        pipeline = self.job.pipeline
-        drawing = self.job.surroundings.drawing(frame)
-        beside = self.job.surroundings.beside(frame)
-        if self.job.order.targets.kind == "png":
-            return pipeline.render(drawing, scene, beside)
-        passes = pipeline.light(drawing, scene, beside)
-        normals, height = (
-            make(drawing, beside=beside) for make in (pipeline.normals, pipeline.height)
-        )
-        return make_layers(drawing, scene, passes, normals, height)
+    def _tell(self, work: Work, frame: ShotFrame, error: LampblackError | None) -> None:
+        if error is not None:
+            self.outcome.failed.append((frame, error))
+        else:
+            self.outcome.done.append(frame)
+            if work.kept:
+                self.outcome.kept.append(frame)
+            elif work.blank is not None:
+                self.outcome.unlit.append(frame)
+                words = f"{frame.name}: {work.blank} Passed through unlit."
+                warnings.warn(words, LampblackWarning, stacklevel=2)
+        self.listener(frame, error)
 
-    def _write(self, frame: ShotFrame, lit: Lit, stamp: str) -> None:
-        shot, target = self.job.order.shot, self.job.order.targets.path(frame)
-        if self.job.order.targets.kind == "exr":
-            save_exr(target, self._exr_layers(frame, lit), stamp)
+    def _lit(self, work: Work) -> NDArray[np.uint8] | Layers:
+        """The cel, lit; as it is if nothing is drawn on it."""
+        model = work.model
+        if model is None:
+            assert work.pixels is not None
+            return work.pixels
+        assert work.scene is not None
+        assert work.passes is not None
+        if self.order.targets.kind == "png":
+            return composite(model.drawing, work.passes, work.scene)
+        assert model.normals is not None
+        assert model.height is not None
+        return make_layers(model.drawing, work.scene, work.passes, model.normals, model.height)
+
+    def _write(self, frame: ShotFrame, lit: NDArray[np.uint8] | Layers, stamp: str) -> None:
+        shot, target = self.order.shot, self.order.targets.path(frame)
+        if self.order.targets.kind == "exr":
+            save_exr(target, seen_layers(shot, frame, lit), stamp)
         else:
             assert not isinstance(lit, Layers)
             save_png(target, shot.finish(frame, lit), stamp)
 
-    def _exr_layers(self, frame: ShotFrame, lit: Lit) -> dict[str, Floats]:
-        """The layers as the frame's camera sees them; of a blank frame, the picture alone."""
-        shot = self.job.order.shot
-        if not isinstance(lit, Layers):
-            return {"": _scene_linear(shot.finish(frame, (lit / np.float32(255))))}
-        camera = shot.camera(frame)
-        size = lit.lit.shape[1], lit.lit.shape[0]
-        if shot.canvas is not None:
-            size = shot.canvas.width, shot.canvas.height
-        a, b, _, d, e, _ = camera
-        scale = np.float32(math.sqrt(abs(a * e - b * d)))
-        # Directions turn with the camera; normals count y upwards, pixels downwards.
-        turn = np.array([[a, -b, 0], [-d, e, 0], [0, 0, scale]], np.float32) / scale
-        seen = {
-            **lit.colour,
-            "shadow": 1 - lit.shadow,  # past the cel's edges there is none
-            "ink": lit.ink,
-            "normal": lit.normal @ turn.T,
-            "depth": lit.depth * scale,
-        }
-        layers = {name: look_through(layer, camera, size) for name, layer in seen.items()}
-        layers["shadow"] = 1 - layers["shadow"]
-        return {"": _scene_linear(shot.finish(frame, lit.lit)), **layers}
 
-    def _cel_of(self, frame: ShotFrame) -> Cel:
-        if self._cel is None:
-            self._cel = self.job.order.shot.cel(frame)
-        return self._cel
-
-    def _pixels(self, frame: ShotFrame) -> NDArray[np.uint8]:
-        return self._cel_of(frame).pixels
-
-    def _time(self, frame: ShotFrame) -> int:
-        """The frame's number; of one that has none, its place in the order."""
-        if frame.number is not None:
-            return frame.number
-        return self.job.order.frames.index(frame) + 1
-
-    def _check_size(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> None:
-        if self.job.canvas is None:
-            self.job.canvas = scene.canvas
-        expected = self.job.canvas
-        if (canvas.width, canvas.height) != (expected.width, expected.height):
-            warnings.warn(
-                f"{frame.name} is {canvas.width} x {canvas.height} pixels, not {expected.width} x "
-                f"{expected.height} like the scene or the first frame.",
-                LampblackWarning,
-                stacklevel=2,
-            )
-            if self.job.order.shot.canvas is not None:
-                self.job.canvas = canvas  # once: a project has one size
-
-
-def _scene_linear(picture: Floats) -> Floats:
-    """(H, W, 4) sRGB, straight, to scene-linear, premultiplied."""
-    light = linear(picture[..., :3]) * picture[..., 3:]
-    whole: Floats = np.concatenate([light, picture[..., 3:]], axis=2)
-    return whole
-
-
-def _weights() -> list[str]:
-    """Names for the networks as they are installed: another network makes other pictures."""
-    folder: Path = shipped_weights().parent
-    return [digest(path.name, path.read_bytes()) for path in sorted(folder.iterdir())]
+def _copy(source: Path, target: Path) -> None:
+    """Frames that are made from the same are the same, to the last byte."""
+    with atomic_path(target) as temporary:
+        shutil.copyfile(source, temporary)

@@ -14,7 +14,7 @@ from trimesh.visual.texture import TextureVisuals
 from ..atomic import atomic_file, atomic_path
 from ..drawing import Drawing
 from ..pipeline import Pipeline
-from ..render import QUALITIES, frame_request, standing_on
+from ..render import QUALITIES, frame_request, frame_surface, standing_on
 from ..scene import Scene
 from ..surface import Relief
 
@@ -37,7 +37,7 @@ def save_scene(pipeline: Pipeline, drawing: Drawing, scene: Scene, path: Path) -
     if path.suffix.lower() == ".glb":
         _save_glb(drawing, relief, scene, path)
         return
-    request = frame_request(drawing, relief, scene)
+    request = frame_request(drawing, frame_surface(drawing, relief, scene), scene)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
     materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
     materials.append(scene.default_material)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Callable
 
 from ..drawing import Drawing, take_apart
 from ..errors import LampblackError
@@ -19,11 +20,15 @@ _OPEN = REACH + 1
 class Surroundings:
     """Finds what is around the drawings of a shot, whichever of its frames are lit.
 
-    The last few drawings are held whole, and a few more in miniature.
+    The last few drawings are held whole, and a few more in miniature. ``check`` is called before
+    each that is taken apart: what it raises ends the search.
     """
 
-    def __init__(self, shot: Shot, pipeline: Pipeline) -> None:
+    def __init__(
+        self, shot: Shot, pipeline: Pipeline, check: Callable[[], None] = lambda: None
+    ) -> None:
         self._shot = shot
+        self._check = check
         self._pipeline = pipeline
         self._frames = {frame.drawing: frame for frame in reversed(shot.frames)}
         self._names = neighbours([frame.drawing for frame in shot.frames], REACH)
@@ -40,6 +45,7 @@ class Surroundings:
         Raises:
             DrawingError: it cannot be read, or nothing is drawn on it.
         """
+        self._check()
         if frame.drawing not in self._drawings:
             cel = self._shot.cel(frame)
             self._drawings[frame.drawing] = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)

@@ -3,7 +3,7 @@
 from .client import RenderChild
 from .passes import LightPasses, Passes
 from .quality import QUALITIES, Quality, Sampling
-from .request import RenderRequest, Surface, dress, frame_request, standing_on
+from .request import RenderRequest, Surface, dress, frame_request, frame_surface, standing_on
 from .wire import Expose
 
 __all__ = [
@@ -18,5 +18,6 @@ __all__ = [
     "Surface",
     "dress",
     "frame_request",
+    "frame_surface",
     "standing_on",
 ]

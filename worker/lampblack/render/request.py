@@ -62,15 +62,18 @@ class RenderRequest:
         return self.rect or (0.0, 0.0, float(self.canvas.width), float(self.canvas.height))
 
 
-def frame_request(drawing: Drawing, relief: Relief, scene: Scene) -> RenderRequest:
+def frame_surface(drawing: Drawing, relief: Relief, scene: Scene) -> Surface:
+    """The relief of a frame in the materials of ``scene``, whatever its lights."""
+    place = standing_on(drawing.labels, relief.vertices)
+    return dress(relief, drawing.albedo[place], drawing.labels[place], drawing.palette, scene)
+
+
+def frame_request(drawing: Drawing, surface: Surface, scene: Scene) -> RenderRequest:
     """Ask for all the light of ``scene`` on one frame, of the canvas's size or another."""
-    row, column = standing_on(drawing.labels, relief.vertices)
     width, height = drawing.size
     whole = (scene.canvas.width, scene.canvas.height) == drawing.size
     return RenderRequest(
-        surface=dress(
-            relief, drawing.albedo[row, column], drawing.labels[row, column], drawing.palette, scene
-        ),
+        surface=surface,
         canvas=scene.canvas,
         lights=scene.lights,
         floor=scene.floor,

@@ -98,7 +98,7 @@ class Jobs:
                 if job.session == session and request in (None, job.request):
                     job.cancelled = True
             if self._current and self._current.cancelled:
-                self._kill_renderer()
+                self.pipeline.interrupt()
             self._condition.notify()
 
     def close(self) -> None:
@@ -106,7 +106,7 @@ class Jobs:
         with self._condition:
             for job in [*self._waiting, *([self._current] if self._current else [])]:
                 job.cancelled = True
-            self._kill_renderer()
+            self.pipeline.interrupt()
             self._condition.notify()
 
     @property
@@ -114,12 +114,6 @@ class Jobs:
         """Process of the renderer, None while there is none."""
         child: RenderChild | None = self.pipeline.__dict__.get("child")
         return None if child is None else child.pid
-
-    def _kill_renderer(self) -> None:
-        """A render cannot be interrupted: the child that renders can."""
-        child: RenderChild | None = self.pipeline.__dict__.get("child")
-        if child is not None:
-            child.kill()
 
     def run(self) -> None:
         """Work until the studio closes."""

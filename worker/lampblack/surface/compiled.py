@@ -11,5 +11,6 @@ Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
 
 def compiled(kernel: Kernel) -> Kernel:
-    """``kernel`` compiled by numba at its first call, and kept on disk for the next start."""
-    return cast(Kernel, njit(cache=True)(kernel))
+    """``kernel`` compiled by numba at its first call, and kept on disk for the next start. Other
+    threads go on while it runs."""
+    return cast(Kernel, njit(cache=True, nogil=True)(kernel))
