@@ -45,9 +45,10 @@ def flicker(
 ) -> None:
     """How much normals change from drawing to drawing, as predicted and steadied; degrees.
 
-    Of drawings: after the motion of the whole figure is removed (rigid), after the motion of
-    each place (local), and as departure from the drawings before and after (jitter). Of
-    turntables: along the points of the model, and the error against the truth.
+    Of drawings: after the motion of the whole figure is removed (rigid; of that, what moving
+    parts make: motion), after the motion of each place (local), and as departure from the
+    drawings before and after (jitter). Of turntables: the error against the truth, change and
+    jitter along the points of the model, and rigid, which the truth has too.
 
     Example: lampblack flicker walk/
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,8 @@ from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation
 from ..dataset.linework import Hand, draw_lines
 from ..dataset.models import Model, load_model
 from ..predict import NormalPredictor
-from ..temporal.miniature import miniature
+from ..temporal.flicker import rigid_change
+from ..temporal.miniature import Miniature, miniature
 from ..temporal.steady import REACH, Around, Steadier
 
 STEP_DEGREES = 5.0
@@ -32,11 +34,14 @@ class Wobble:
         change: along the points of the model, from view to view, after the model's own turn is
             removed: 0 for the truth, but for its sampling.
         jitter: departure from the mean of the views before and after, likewise.
+        rigid: after the motion of the whole figure in the picture alone: of the truth, what the
+            model's turn makes of it.
     """
 
     error: float
     change: float
     jitter: float
+    rigid: float
 
 
 @dataclass(frozen=True)
@@ -94,10 +99,7 @@ def _views(model: Model, count: int, figure_px: int, seed: int) -> list[View]:
 
 def _steadied(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
     steadier = Steadier()
-    small = [
-        miniature(str(index), view.lines, view.seen.mask, np.ones_like(view.seen.normals), normals)
-        for index, (view, normals) in enumerate(zip(views, predicted, strict=True))
-    ]
+    small = _small(views, predicted)
     return [
         steadier.steady(
             normals,
@@ -109,8 +111,16 @@ def _steadied(views: Sequence[View], predicted: Sequence[Normals]) -> list[Norma
     ]
 
 
+def _small(views: Sequence[View], normals: Sequence[Normals]) -> list[Miniature]:
+    return [
+        miniature(str(index), view.lines, view.seen.mask, np.ones_like(shown), shown)
+        for index, (view, shown) in enumerate(zip(views, normals, strict=True))
+    ]
+
+
 def _measure(views: Sequence[View], normals: Sequence[Normals]) -> Wobble:
     error, change, jitter = [], [], []
+    rigid = [rigid_change(here, later) for here, later in pairwise(_small(views, normals))]
     for i, view in enumerate(views):
         mask = view.seen.mask
         error.append(_angle(normals[i][mask], view.seen.normals[mask]))
@@ -132,7 +142,7 @@ def _measure(views: Sequence[View], normals: Sequence[Normals]) -> Wobble:
             mean = carried[0] + carried[1]
             met = np.isfinite(mean[..., 0])
             jitter.append(_angle(normals[i][met], mean[met]))
-    return Wobble(*(float(np.mean(found)) for found in (error, change, jitter)))
+    return Wobble(*(float(np.mean(found)) for found in (error, change, jitter, rigid)))
 
 
 def _followed(view: View, other: View) -> NDArray[np.int64]:

@@ -78,6 +78,11 @@ class FlickerMeter:
         return Flicker(*(float(np.mean(values)) if values else nan for values in found))
 
 
+def rigid_change(here: Miniature, later: Miniature) -> float:
+    """Degrees of change that are left after the motion of the whole figure."""
+    return _change(here, later, rigid_registration(here, later))
+
+
 def _change(here: Miniature, other: Miniature, seen: Registration) -> float:
     return _mean_angle(here, *carried(other, seen.fine()))
 
