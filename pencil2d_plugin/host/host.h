@@ -98,6 +98,8 @@ public:
 
     // Time
     virtual int currentFrame() const = 0;
+    /// Steps there unless the animation plays; frames that the program cannot show are let be.
+    virtual void goToFrame(int frame) = 0;
     virtual int frameCount() const = 0;
     virtual double framesPerSecond() const = 0;
     virtual bool isPlaying() const = 0;

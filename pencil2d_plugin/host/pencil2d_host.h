@@ -37,6 +37,7 @@ public:
     QColor paper() const override;
 
     int currentFrame() const override { return mTransport.currentFrame(); }
+    void goToFrame(int frame) override { mTransport.goTo(frame); }
     int frameCount() const override { return mTransport.frameCount(); }
     double framesPerSecond() const override { return mTransport.framesPerSecond(); }
     bool isPlaying() const override { return mTransport.isPlaying(); }

@@ -2,10 +2,16 @@
 
 #include <QLabel>
 #include <QRegularExpression>
+#include <QSignalBlocker>
 #include <QSpinBox>
 
 namespace lampblack
 {
+
+namespace
+{
+constexpr int LastFrame = 9999; // of Pencil2D's timeline
+}
 
 int frameOf(const QString& label)
 {
@@ -31,6 +37,26 @@ Transport::Transport(const Parts& parts, QObject* parent) : QObject(parent), mPa
         if (const int frame = frameOf(label->text()); frame > 0)
             mFrame = frame;
     }
+}
+
+void Transport::goTo(int frame)
+{
+    QAction* next = mParts.action("actionNext_Frame");
+    QAction* previous = mParts.action("actionPrevious_Frame");
+    if (next == nullptr || previous == nullptr || mPlaying || frame < 1 || frame > LastFrame)
+        return;
+    const int from = mFrame;
+    {
+        const QSignalBlocker onTheWay(this);
+        int before = 0;
+        while (mFrame != frame && mFrame != before)
+        {
+            before = mFrame;
+            (mFrame < frame ? next : previous)->trigger();
+        }
+    }
+    if (mFrame != from)
+        Q_EMIT frameChanged(mFrame);
 }
 
 double Transport::framesPerSecond() const

@@ -17,6 +17,7 @@ public:
     Transport(const Parts& parts, QObject* parent);
 
     int currentFrame() const { return mFrame; }
+    void goTo(int frame);
     int frameCount() const { return mCount; }
     double framesPerSecond() const;
     bool isPlaying() const { return mPlaying; }

@@ -1,5 +1,6 @@
 #include "plugin/studio.h"
 
+#include "scene/timeline.h"
 #include "worker/worker_session.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ bool Studio::isSettled() const
 QVariantList Studio::lightPlaces() const
 {
     QVariantList places;
-    for (const AreaLight& light : mDocument.scene().lights)
+    for (const AreaLight& light : sceneAt(mDocument.scene(), mHost.currentFrame()).lights)
         places.append(QVariant(QVariantList{light.x, light.y}));
     return places;
 }

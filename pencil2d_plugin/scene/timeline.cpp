@@ -108,7 +108,7 @@ void shorten(FloorKey& key)
     key.pitch = rounded(key.pitch);
 }
 
-template <class Key> QVector<Key> inOrder(QVector<Key> keys)
+template <class Key> QVector<Key> ordered(QVector<Key> keys)
 {
     std::stable_sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.frame < b.frame; });
     QVector<Key> distinct;
@@ -126,7 +126,7 @@ template <class Thing> Thing thingAt(const Thing& thing, int frame)
 {
     if (thing.keys.isEmpty())
         return thing;
-    const auto keys = inOrder(thing.keys);
+    const auto keys = ordered(thing.keys);
     const auto after =
         std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame > frame; });
     Thing still = thing;
@@ -147,7 +147,7 @@ template <class Thing> Thing thingAt(const Thing& thing, int frame)
 template <class Thing> QVector<int> framesOf(const Thing& thing)
 {
     QVector<int> frames;
-    for (const auto& key : inOrder(thing.keys))
+    for (const auto& key : ordered(thing.keys))
         frames << key.frame;
     return frames;
 }
@@ -155,7 +155,7 @@ template <class Thing> QVector<int> framesOf(const Thing& thing)
 template <class Thing> Thing keyed(const Thing& thing, int frame, const Thing& shown)
 {
     Thing result = thing;
-    result.keys = inOrder(thing.keys);
+    result.keys = ordered(thing.keys);
     auto& keys = result.keys;
     auto at = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame >= frame; });
     if (at == keys.end() || at->frame != frame)
@@ -188,6 +188,13 @@ template <class Thing> Thing unkeyed(const Thing& thing, int frame)
 
 } // namespace
 
+bool isKeyed(const Scene& scene)
+{
+    return (scene.floor && !scene.floor->keys.isEmpty()) ||
+           std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [](const AreaLight& light) { return !light.keys.isEmpty(); });
+}
+
 AreaLight lightAt(const AreaLight& light, int frame)
 {
     return thingAt(light, frame);
@@ -206,6 +213,16 @@ Scene sceneAt(const Scene& scene, int frame)
     if (still.floor)
         still.floor = floorAt(*still.floor, frame);
     return still;
+}
+
+QVector<LightKey> inOrder(const QVector<LightKey>& keys)
+{
+    return ordered(keys);
+}
+
+QVector<FloorKey> inOrder(const QVector<FloorKey>& keys)
+{
+    return ordered(keys);
 }
 
 QVector<int> keyFrames(const AreaLight& light)

@@ -9,10 +9,17 @@
 namespace lampblack
 {
 
+/// Whether it differs from frame to frame.
+bool isKeyed(const Scene& scene);
+
 /// As it is at `frame`, without keys.
 AreaLight lightAt(const AreaLight& light, int frame);
 Floor floorAt(const Floor& floor, int frame);
 Scene sceneAt(const Scene& scene, int frame);
+
+/// By frame, one a frame.
+QVector<LightKey> inOrder(const QVector<LightKey>& keys);
+QVector<FloorKey> inOrder(const QVector<FloorKey>& keys);
 
 /// The frames of its keys, rising, each once.
 QVector<int> keyFrames(const AreaLight& light);

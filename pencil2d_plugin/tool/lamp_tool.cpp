@@ -126,12 +126,12 @@ void LampTool::makeCanvas()
     mOverlay = new CanvasOverlay(mHost, mDocument);
     mInput = new CanvasInput(mHost, mDocument, *mOverlay);
     mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput);
-    mMenu = new LampMenu(mDocument, mHost.canvas());
+    mMenu = new LampMenu(mHost, mDocument, mHost.canvas());
     connect(&mHost, &Host::playingChanged, mOverlay.data(),
             [this](bool playing) { mOverlay->setHandlesShown(!playing); });
     connect(mInput, &CanvasInput::menuRequested, mMenu.data(),
-            [this](const QPointF& canvas, const QPoint& global, int light)
-            { mMenu->openAt(canvas, global, light, mColours.at(canvas)); });
+            [this](const QPointF& canvas, const QPoint& global, const Handle& handle)
+            { mMenu->openAt(canvas, global, handle, mColours.at(canvas)); });
     connect(mInput, &CanvasInput::pointed, this, &LampTool::point);
     connect(mInput, &CanvasInput::left, this,
             [this]

@@ -1,5 +1,7 @@
 #include "tool/canvas/canvas_input.h"
 
+#include "scene/timeline.h"
+
 #include <QHoverEvent>
 #include <QIcon>
 #include <QMouseEvent>
@@ -165,7 +167,7 @@ bool CanvasInput::press(const Pointer& pointer)
         const Handle handle = mOverlay.handles().at(pointer.position);
         if (handle.light >= 0)
             mDocument.selectLight(handle.light);
-        Q_EMIT menuRequested(onCanvas(pointer.position), pointer.global, handle.light);
+        Q_EMIT menuRequested(onCanvas(pointer.position), pointer.global, handle);
         return true;
     }
     if (pointer.button != Qt::LeftButton)
@@ -187,7 +189,7 @@ bool CanvasInput::press(const Pointer& pointer)
     if (handle.light >= 0)
         mDocument.selectLight(handle.light);
     mDrag.emplace(handle, pointer.modifiers.testFlag(Qt::AltModifier), pointer.position, mDocument.scene(),
-                  mOverlay.handles(), *mOverlay.canvasToWidget());
+                  mHost.currentFrame(), mOverlay.handles(), *mOverlay.canvasToWidget());
     mPressed = pointer.position;
     mMoved = false;
     showCursor();
@@ -260,9 +262,11 @@ bool CanvasInput::wheel(QEvent* event)
     if (!isFloor)
         mDocument.selectLight(handle.light);
     const QString text = isFloor ? tr("Pitch Floor") : tr("Change Light Height");
-    mDocument.edit(text,
-                   turned(mDocument.scene(), handle, notches, wheel.modifiers().testFlag(Qt::ShiftModifier)),
-                   mWheelRun.of(QStringLiteral("%1 %2").arg(int(handle.part)).arg(handle.light)));
+    const int frame = mHost.currentFrame();
+    const bool fine = wheel.modifiers().testFlag(Qt::ShiftModifier);
+    mDocument.edit(
+        text, turned(mDocument.scene(), frame, handle, notches, fine),
+        mWheelRun.of(QStringLiteral("%1 %2 %3").arg(int(handle.part)).arg(handle.light).arg(frame)));
     tell(handle, wheel.position(), isFloor ? Drag::Kind::FloorPitch : Drag::Kind::LightHeight);
     mTagTimer.start();
     return true;
@@ -270,7 +274,7 @@ bool CanvasInput::wheel(QEvent* event)
 
 void CanvasInput::tell(const Handle& handle, const QPointF& beside, Drag::Kind kind)
 {
-    const Scene& scene = mDocument.scene();
+    const Scene scene = sceneAt(mDocument.scene(), mHost.currentFrame());
     const AreaLight light = scene.lights.value(handle.light);
     const Floor floor = scene.floor.value_or(Floor());
     QString text;

@@ -42,8 +42,7 @@ Q_SIGNALS:
     /// The pointer is over a point of the canvas, canvas pixels.
     void pointed(const QPointF& canvas);
     void left();
-    /// `light` is the light there, or -1.
-    void menuRequested(const QPointF& canvas, const QPoint& global, int light);
+    void menuRequested(const QPointF& canvas, const QPoint& global, const lampblack::Handle& handle);
     void picked(const QPointF& canvas);
     void pickingChanged(bool picking);
 

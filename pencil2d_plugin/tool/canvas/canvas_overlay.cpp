@@ -1,5 +1,6 @@
 #include "tool/canvas/canvas_overlay.h"
 
+#include "scene/timeline.h"
 #include "tool/canvas/handle_painter.h"
 
 #include <QEvent>
@@ -21,6 +22,12 @@ CanvasOverlay::CanvasOverlay(Host& host, const SceneDocument& document)
     connect(&document, &SceneDocument::sceneChanged, this, &CanvasOverlay::follow);
     connect(&document, &SceneDocument::selectionChanged, this, &CanvasOverlay::follow);
     connect(&host, &Host::viewChanged, this, &CanvasOverlay::follow);
+    connect(&host, &Host::frameChanged, this,
+            [this]
+            {
+                if (isKeyed(mDocument.scene()))
+                    follow();
+            });
 }
 
 bool CanvasOverlay::showsPicture() const
@@ -101,9 +108,9 @@ void CanvasOverlay::follow()
         update();
     }
     const QRegion before = handlesRegion();
-    mHandles = transform && transform->isInvertible()
-                   ? Handles(mDocument.scene(), mDocument.selectedLight(), *transform, size())
-                   : Handles();
+    mHandles = transform && transform->isInvertible() ? Handles(mDocument.scene(), mHost.currentFrame(),
+                                                                mDocument.selectedLight(), *transform, size())
+                                                      : Handles();
     update(before + handlesRegion());
 }
 

@@ -1,5 +1,6 @@
 #include "tool/canvas/drag.h"
 
+#include "scene/timeline.h"
 #include "tool/gesture.h"
 
 #include <QCoreApplication>
@@ -43,19 +44,21 @@ double roundTo(double value, double step)
 
 } // namespace
 
-Drag::Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& scene, const Handles& handles,
-           const QTransform& canvasToWidget)
+Drag::Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& scene, int frame,
+           const Handles& handles, const QTransform& canvasToWidget)
     : mHandle(handle), mKind(kindOf(handle.part, depth)), mGesture(newGesture()), mPress(press),
-      mUnit(scene.defaultHeight()), mToCanvas(canvasToWidget.inverted())
+      mUnit(scene.defaultHeight()), mToCanvas(canvasToWidget.inverted()), mFrame(frame)
 {
     if (handle.part == HandlePart::Floor)
     {
         mFloor = scene.floor.value_or(Floor());
-        mCentre = canvasToWidget.map(QPointF(mToCanvas.map(press).x(), mFloor.y));
+        mShownFloor = floorAt(mFloor, frame);
+        mCentre = canvasToWidget.map(QPointF(mToCanvas.map(press).x(), mShownFloor.y));
     }
     else
     {
         mLight = scene.lights.value(handle.light);
+        mShownLight = lightAt(mLight, frame);
         mCentre = handles.lights().value(handle.light).centre;
     }
 }
@@ -84,11 +87,11 @@ Scene Drag::moved(const Scene& scene, const QPointF& pointer, bool constrain) co
     if (mHandle.part == HandlePart::Floor)
     {
         if (result.floor)
-            result.floor = movedFloor(pointer, constrain);
+            result.floor = changedAt(mFloor, mFrame, movedFloor(pointer, constrain));
     }
     else if (mHandle.light < result.lights.size())
     {
-        result.lights[mHandle.light] = movedLight(pointer, constrain);
+        result.lights[mHandle.light] = changedAt(mLight, mFrame, movedLight(pointer, constrain));
     }
     return result;
 }
@@ -105,18 +108,18 @@ Scene Drag::restored(const Scene& scene) const
 
 AreaLight Drag::movedLight(const QPointF& pointer, bool constrain) const
 {
-    AreaLight light = mLight;
+    AreaLight light = mShownLight;
     QPointF by = pointer - mPress;
     if (mKind == Kind::LightHeight)
     {
-        light.z = heightOfStem(stemOfHeight(mLight.z, mUnit) - by.y(), mUnit);
+        light.z = heightOfStem(stemOfHeight(mShownLight.z, mUnit) - by.y(), mUnit);
         if (constrain)
             light.z = roundTo(light.z, mUnit / 4);
     }
     else if (mKind == Kind::LightSize)
     {
         const double from = std::max(1.0, QLineF(mCentre, mPress).length());
-        light.size = std::max(1.0, mLight.size * QLineF(mCentre, pointer).length() / from);
+        light.size = std::max(1.0, mShownLight.size * QLineF(mCentre, pointer).length() / from);
         if (constrain)
             light.size = std::max(10.0, roundTo(light.size, 10));
     }
@@ -133,12 +136,12 @@ AreaLight Drag::movedLight(const QPointF& pointer, bool constrain) const
 
 Floor Drag::movedFloor(const QPointF& pointer, bool constrain) const
 {
-    Floor floor = mFloor;
+    Floor floor = mShownFloor;
     if (mKind == Kind::FloorPitch)
     {
         const double down = mToCanvas.map(pointer).y() - mToCanvas.map(mPress).y();
         const double pixels = down / scaleOf(mToCanvas);
-        floor.pitch = std::clamp(mFloor.pitch + DegreesPerPixel * pixels, 5.0, 85.0);
+        floor.pitch = std::clamp(mShownFloor.pitch + DegreesPerPixel * pixels, 5.0, 85.0);
         if (constrain)
             floor.pitch = roundTo(floor.pitch, 5);
     }
@@ -151,14 +154,22 @@ Floor Drag::movedFloor(const QPointF& pointer, bool constrain) const
     return floor;
 }
 
-Scene turned(const Scene& scene, const Handle& handle, double notches, bool fine)
+Scene turned(const Scene& scene, int frame, const Handle& handle, double notches, bool fine)
 {
     Scene result = scene;
     const double steps = fine ? notches * Fine : notches;
     if (handle.part == HandlePart::Floor && result.floor)
-        result.floor->pitch = std::clamp(result.floor->pitch + DegreesPerNotch * steps, 5.0, 85.0);
+    {
+        Floor floor = floorAt(*result.floor, frame);
+        floor.pitch = std::clamp(floor.pitch + DegreesPerNotch * steps, 5.0, 85.0);
+        result.floor = changedAt(*result.floor, frame, floor);
+    }
     else if (handle.light >= 0 && handle.light < result.lights.size())
-        result.lights[handle.light].z += HeightPerNotch * scene.defaultHeight() * steps;
+    {
+        AreaLight light = lightAt(result.lights[handle.light], frame);
+        light.z += HeightPerNotch * scene.defaultHeight() * steps;
+        result.lights[handle.light] = changedAt(result.lights[handle.light], frame, light);
+    }
     return result;
 }
 

@@ -19,9 +19,10 @@ public:
         FloorPitch
     };
 
-    /// `handle` is not None and of `scene`. With `depth` a light changes height and a floor its pitch.
-    Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& scene, const Handles& handles,
-         const QTransform& canvasToWidget);
+    /// `handle` is not None and of `scene`, which is changed as it is at `frame`. With `depth` a light
+    /// changes height and a floor its pitch.
+    Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& scene, int frame,
+         const Handles& handles, const QTransform& canvasToWidget);
 
     Kind kind() const { return mKind; }
     const Handle& handle() const { return mHandle; }
@@ -46,12 +47,15 @@ private:
     QPointF mCentre; ///< of the light's handle, or a point of the floor's hinge
     double mUnit = 1;
     QTransform mToCanvas;
-    AreaLight mLight;
+    int mFrame = 0;
+    AreaLight mLight; ///< with its keys
     Floor mFloor;
+    AreaLight mShownLight; ///< as it was at the frame
+    Floor mShownFloor;
 };
 
-/// `scene` after `notches` of the wheel (away from the artist is above 0) over a handle: a light rises,
-/// sinks through the paper and behind it; a floor pitches. `fine` makes small steps.
-Scene turned(const Scene& scene, const Handle& handle, double notches, bool fine);
+/// `scene` after `notches` of the wheel (away from the artist is above 0) over a handle at `frame`: a light
+/// rises, sinks through the paper and behind it; a floor pitches. `fine` makes small steps.
+Scene turned(const Scene& scene, int frame, const Handle& handle, double notches, bool fine);
 
 } // namespace lampblack

@@ -120,6 +120,24 @@ void paintLight(QPainter& painter, const LightShape& light, bool selected, Handl
     painter.drawEllipse(light.centre, Handles::DiscRadius - 1, Handles::DiscRadius - 1);
 }
 
+void paintPath(QPainter& painter, const LightShape& light, bool selected)
+{
+    if (light.path.isEmpty())
+        return;
+    QPainterPath way;
+    way.addPolygon(light.path);
+    painter.save();
+    painter.setOpacity(selected ? 0.7 : 0.35);
+    strokeTwice(painter, way, Light, 1, true);
+    painter.setPen(QPen(Dark, 1));
+    for (int key = 0; key < light.path.size(); ++key)
+    {
+        painter.setBrush(key == light.key ? Hover : Light);
+        painter.drawEllipse(light.path[key], Handles::KeyRadius, Handles::KeyRadius);
+    }
+    painter.restore();
+}
+
 void paintFloor(QPainter& painter, const FloorShape& floor, bool hovered)
 {
     const QColor tint = hovered ? Hover : Light;
@@ -154,6 +172,8 @@ void paintHandles(QPainter& painter, const Handles& handles, const Handle& hover
     painter.setRenderHint(QPainter::Antialiasing);
     if (handles.floor())
         paintFloor(painter, *handles.floor(), hovered.part == HandlePart::Floor);
+    for (int light = 0; light < handles.lights().size(); ++light)
+        paintPath(painter, handles.lights()[light], light == handles.selected());
     const auto part = [&hovered](int light)
     {
         return hovered.light == light ? hovered.part : HandlePart::None;

@@ -1,5 +1,7 @@
 #include "tool/canvas/handles.h"
 
+#include "scene/timeline.h"
+
 #include <QRegion>
 #include <QtMath>
 
@@ -119,14 +121,24 @@ double scaleOf(const QTransform& canvasToWidget)
     return std::sqrt(std::abs(canvasToWidget.determinant()));
 }
 
-Handles::Handles(const Scene& scene, int selected, const QTransform& canvasToWidget, const QSize& view)
+Handles::Handles(const Scene& scene, int frame, int selected, const QTransform& canvasToWidget,
+                 const QSize& view)
     : mSelected(selected)
 {
     const QRectF room{QPointF(), QSizeF(view)};
     for (const AreaLight& light : scene.lights)
-        mLights << shapeOf(light, scene.defaultHeight(), canvasToWidget, room);
+    {
+        LightShape shape = shapeOf(lightAt(light, frame), scene.defaultHeight(), canvasToWidget, room);
+        for (const LightKey& key : inOrder(light.keys))
+        {
+            if (key.frame == frame)
+                shape.key = shape.path.size();
+            shape.path << canvasToWidget.map(QPointF(key.x, key.y));
+        }
+        mLights << shape;
+    }
     if (scene.floor)
-        mFloor = shapeOf(*scene.floor, scene.canvas.width(), canvasToWidget, room);
+        mFloor = shapeOf(floorAt(*scene.floor, frame), scene.canvas.width(), canvasToWidget, room);
 }
 
 Handle Handles::at(const QPointF& position) const
@@ -175,6 +187,12 @@ QRegion Handles::region() const
         const double hollow = light.ring * M_SQRT1_2 - Stroke;
         const QRectF inner = QRectF(light.place, QSizeF()).adjusted(-hollow, -hollow, hollow, hollow);
         region += hollow > 2 * body ? QRegion(outer).subtracted(inner.toAlignedRect()) : QRegion(outer);
+        for (int key = 0; key < light.path.size(); ++key)
+            region += QRectF(light.path[qMax(0, key - 1)], light.path[key])
+                          .normalized()
+                          .adjusted(-Stroke - KeyRadius, -Stroke - KeyRadius, Stroke + KeyRadius,
+                                    Stroke + KeyRadius)
+                          .toAlignedRect();
     }
     if (mFloor)
     {

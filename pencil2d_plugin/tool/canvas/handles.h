@@ -50,6 +50,8 @@ struct LightShape
     bool behind = false;  ///< behind the paper
     bool outside = false; ///< out of view
     QColor colour;
+    QPolygonF path; ///< where it is at each of its keys, in their order
+    int key = -1;   ///< which of them is of this frame
 };
 
 struct FloorShape
@@ -66,9 +68,11 @@ public:
     static constexpr double RayRadius = 14;
     static constexpr double GripRadius = 4.5;
     static constexpr double LeastRing = 18;
+    static constexpr double KeyRadius = 3; ///< of the dots on a light's path
 
     Handles() = default;
-    Handles(const Scene& scene, int selected, const QTransform& canvasToWidget, const QSize& view);
+    /// As they are at `frame`.
+    Handles(const Scene& scene, int frame, int selected, const QTransform& canvasToWidget, const QSize& view);
 
     const QVector<LightShape>& lights() const { return mLights; }
     const std::optional<FloorShape>& floor() const { return mFloor; }

@@ -1,5 +1,7 @@
 #include "tool/canvas/key_input.h"
 
+#include "scene/timeline.h"
+
 #include <QApplication>
 #include <QLineEdit>
 #include <QTextEdit>
@@ -152,10 +154,12 @@ void KeyInput::nudge(const QKeyEvent& key)
     // Left is left on the screen, however the canvas is turned; a step is a canvas pixel at every zoom.
     const QTransform toCanvas = mOverlay.canvasToWidget()->inverted();
     by = (toCanvas.map(by) - toCanvas.map(QPointF())) / scaleOf(toCanvas);
-    AreaLight& light = scene.lights[selected];
+    const int frame = mHost.currentFrame();
+    AreaLight light = lightAt(scene.lights[selected], frame);
     light.x += by.x();
     light.y += by.y();
-    mDocument.edit(tr("Nudge Light"), scene, mNudgeRun.of(QString::number(selected)));
+    scene.lights[selected] = changedAt(scene.lights[selected], frame, light);
+    mDocument.edit(tr("Nudge Light"), scene, mNudgeRun.of(QStringLiteral("%1 %2").arg(selected).arg(frame)));
 }
 
 void KeyInput::setComparing(bool comparing)

@@ -1,5 +1,6 @@
 #include "tool/canvas/lamp_menu.h"
 
+#include "scene/timeline.h"
 #include "tool/canvas/key_input.h"
 #include "tool/materials/material_edit.h"
 
@@ -14,14 +15,16 @@ namespace
 constexpr int IconSide = 16;
 }
 
-LampMenu::LampMenu(SceneDocument& document, QWidget* parent) : QMenu(parent), mDocument(document)
+LampMenu::LampMenu(Host& host, SceneDocument& document, QWidget* parent)
+    : QMenu(parent), mHost(host), mDocument(document)
 {
     setObjectName(QStringLiteral("lampblack.menu"));
 }
 
-void LampMenu::openAt(const QPointF& canvas, const QPoint& global, int light, const QString& colour)
+void LampMenu::openAt(const QPointF& canvas, const QPoint& global, const Handle& handle,
+                      const QString& colour)
 {
-    fill(canvas, light, colour);
+    fill(canvas, handle, colour);
     popup(global);
 }
 
@@ -33,9 +36,21 @@ QAction* LampMenu::add(const char* name, const QString& text, const std::functio
     return action;
 }
 
-void LampMenu::fill(const QPointF& canvas, int light, const QString& colour)
+void LampMenu::fill(const QPointF& canvas, const Handle& handle, const QString& colour)
 {
     clear();
+    fillLight(canvas, handle.light);
+    addSeparator();
+    fillFloor(canvas, handle.part == HandlePart::Floor);
+    if (!colour.isEmpty())
+        fillMaterial(colour);
+    addSeparator();
+    add("reset", tr("Reset Lighting"),
+        [this] { mDocument.edit(tr("Reset Lighting"), withLightingReset(mDocument.scene())); });
+}
+
+void LampMenu::fillLight(const QPointF& canvas, int light)
+{
     const Scene& scene = mDocument.scene();
     QAction* addLight = add("add_light", tr("Add a Light Here"),
                             [this, canvas]
@@ -48,36 +63,67 @@ void LampMenu::fill(const QPointF& canvas, int light, const QString& colour)
     addLight->setEnabled(scene.lights.size() < MaxLights);
     if (!addLight->isEnabled())
         addLight->setText(tr("Add a Light Here (%1 at most)").arg(MaxLights));
-    if (light >= 0 && light < scene.lights.size())
-    {
-        add("delete_light", tr("Delete Light %1").arg(light + 1),
-            [this, light] { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), light)); });
-    }
-    addSeparator();
-    add("floor", scene.floor ? tr("Move the Floor Here") : tr("Put a Floor Here"),
+    if (light < 0 || light >= scene.lights.size())
+        return;
+    add("delete_light", tr("Delete Light %1").arg(light + 1),
+        [this, light] { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), light)); });
+    fillKeys<AreaLight>(scene.lights[light],
+                        [this, light](const QString& text, const AreaLight& changed)
+                        {
+                            Scene keyed = mDocument.scene();
+                            keyed.lights[light] = changed;
+                            mDocument.edit(text, keyed);
+                        });
+}
+
+void LampMenu::fillFloor(const QPointF& canvas, bool isUnderPointer)
+{
+    const std::optional<Floor>& floor = mDocument.scene().floor;
+    add("floor", floor ? tr("Move the Floor Here") : tr("Put a Floor Here"),
         [this, canvas]
         {
             Scene floored = mDocument.scene();
-            Floor floor = floored.floor.value_or(Floor());
-            floor.y = canvas.y();
-            floored.floor = floor;
+            const int frame = mHost.currentFrame();
+            const Floor before = floored.floor.value_or(Floor());
+            Floor moved = floorAt(before, frame);
+            moved.y = canvas.y();
+            floored.floor = changedAt(before, frame, moved);
             mDocument.edit(tr("Place Floor"), floored);
         });
-    if (scene.floor)
-    {
-        add("remove_floor", tr("Remove the Floor"),
-            [this]
-            {
-                Scene bare = mDocument.scene();
-                bare.floor.reset();
-                mDocument.edit(tr("Remove Floor"), bare);
-            });
-    }
-    if (!colour.isEmpty())
-        fillMaterial(colour);
-    addSeparator();
-    add("reset", tr("Reset Lighting"),
-        [this] { mDocument.edit(tr("Reset Lighting"), withLightingReset(mDocument.scene())); });
+    if (!floor)
+        return;
+    add("remove_floor", tr("Remove the Floor"),
+        [this]
+        {
+            Scene bare = mDocument.scene();
+            bare.floor.reset();
+            mDocument.edit(tr("Remove Floor"), bare);
+        });
+    if (!isUnderPointer)
+        return;
+    fillKeys<Floor>(*floor,
+                    [this](const QString& text, const Floor& changed)
+                    {
+                        Scene keyed = mDocument.scene();
+                        keyed.floor = changed;
+                        mDocument.edit(text, keyed);
+                    });
+}
+
+template <class Thing>
+void LampMenu::fillKeys(const Thing& thing, const std::function<void(const QString&, const Thing&)>& change)
+{
+    const int frame = mHost.currentFrame();
+    if (keyFrames(thing).contains(frame))
+        add("remove_key", tr("Remove Key Here (Frame %1)").arg(frame),
+            [=] { change(tr("Remove Key"), withoutKey(thing, frame)); });
+    else
+        add("add_key", tr("Add Key Here (Frame %1)").arg(frame),
+            [=] { change(tr("Add Key"), withKey(thing, frame)); })
+            ->setEnabled(thing.keys.size() < MaxKeys);
+    if (!thing.keys.isEmpty())
+        add("remove_keys", tr("Remove All Keys"),
+            [=] { change(tr("Remove All Keys"), withoutKeys(thing, frame)); });
 }
 
 void LampMenu::fillMaterial(const QString& colour)

@@ -1,7 +1,9 @@
 // The menu under the right button.
 #pragma once
 
+#include "host/host.h"
 #include "scene/scene_document.h"
+#include "tool/canvas/handles.h"
 
 #include <QMenu>
 #include <QPointF>
@@ -15,20 +17,25 @@ class LampMenu : public QMenu
     Q_OBJECT
 
 public:
-    LampMenu(SceneDocument& document, QWidget* parent);
+    LampMenu(Host& host, SceneDocument& document, QWidget* parent);
 
-    /// `canvas` is the place in canvas pixels; `light` the light there, or -1; `colour` the flat colour
-    /// there, "#rrggbb" or empty.
-    void openAt(const QPointF& canvas, const QPoint& global, int light, const QString& colour);
+    /// `canvas` is the place in canvas pixels; `handle` what is there; `colour` the flat colour there,
+    /// "#rrggbb" or empty.
+    void openAt(const QPointF& canvas, const QPoint& global, const Handle& handle, const QString& colour);
 
 Q_SIGNALS:
     void editMaterialRequested(const QString& colour);
 
 private:
-    void fill(const QPointF& canvas, int light, const QString& colour);
+    void fill(const QPointF& canvas, const Handle& handle, const QString& colour);
+    void fillLight(const QPointF& canvas, int light);
+    void fillFloor(const QPointF& canvas, bool isUnderPointer);
+    template <class Thing>
+    void fillKeys(const Thing& thing, const std::function<void(const QString&, const Thing&)>& change);
     void fillMaterial(const QString& colour);
     QAction* add(const char* name, const QString& text, const std::function<void()>& act);
 
+    Host& mHost;
     SceneDocument& mDocument;
 };
 

@@ -47,10 +47,10 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
         blind->setWordWrap(true);
         column->addWidget(blind);
     }
-    column->addWidget(new LightsSection(document));
+    column->addWidget(new LightsSection(host, document));
     column->addWidget(new AmbientSection(document));
     column->addWidget(new SurfaceSection(document));
-    column->addWidget(new FloorSection(document));
+    column->addWidget(new FloorSection(host, document));
     column->addWidget(new LayersSection(host, document));
     column->addWidget(mRender);
     column->addStretch(1);

@@ -1,5 +1,6 @@
 #include "tool/panel/lights_section.h"
 
+#include "scene/timeline.h"
 #include "tool/canvas/key_input.h"
 #include "tool/canvas/lamp_menu.h"
 
@@ -40,9 +41,9 @@ QToolButton* smallButton(const QString& name, const QString& text, const QString
     return button;
 }
 
-LightsSection::LightsSection(SceneDocument& document, QWidget* parent)
-    : Section(QStringLiteral("lampblack.panel.lights"), tr("Lights"), true, parent), mDocument(document),
-      mChoice(new QButtonGroup(this))
+LightsSection::LightsSection(Host& host, SceneDocument& document, QWidget* parent)
+    : Section(QStringLiteral("lampblack.panel.lights"), tr("Lights"), true, parent), mHost(host),
+      mDocument(document), mChoice(new QButtonGroup(this))
 {
     auto* row = new QHBoxLayout;
     row->setSpacing(2);
@@ -92,6 +93,8 @@ LightsSection::LightsSection(SceneDocument& document, QWidget* parent)
     numbers->addWidget(mPower);
     numbers->addWidget(mSize);
     numbers->addWidget(mHeight);
+    mKeys = new KeysRow(QStringLiteral("lampblack.panel.keys"), host, mNumbers);
+    numbers->addWidget(mKeys);
     body()->addWidget(mNumbers);
 
     connect(mColour, &ColourButton::edited, this,
@@ -107,6 +110,13 @@ LightsSection::LightsSection(SceneDocument& document, QWidget* parent)
     connect(mHeight, &ValueRow::edited, this,
             [this](double value, int gesture)
             { change(tr("Change Light Height"), gesture, [&](AreaLight& light) { light.z = value; }); });
+    connect(mKeys, &KeysRow::keyToggled, this, &LightsSection::toggleKey);
+    connect(&host, &Host::frameChanged, this,
+            [this]
+            {
+                if (isKeyed(mDocument.scene()))
+                    refresh();
+            });
     connect(&document, &SceneDocument::sceneChanged, this, &LightsSection::refresh);
     connect(&document, &SceneDocument::selectionChanged, this, &LightsSection::refresh);
     refresh();
@@ -114,7 +124,7 @@ LightsSection::LightsSection(SceneDocument& document, QWidget* parent)
 
 void LightsSection::refresh()
 {
-    const Scene& scene = mDocument.scene();
+    const Scene scene = sceneAt(mDocument.scene(), mHost.currentFrame());
     const int selected = mDocument.selectedLight();
     for (int light = 0; light < MaxLights; ++light)
     {
@@ -137,6 +147,7 @@ void LightsSection::refresh()
     mPower->setValue(light.power);
     mSize->setValue(light.size);
     mHeight->setValue(light.z);
+    mKeys->setKeys(keyFrames(mDocument.scene().lights[selected]));
 }
 
 void LightsSection::addLight()
@@ -164,8 +175,25 @@ void LightsSection::change(const QString& text, int gesture, const std::function
     const int selected = mDocument.selectedLight();
     if (selected < 0 || selected >= scene.lights.size())
         return;
-    how(scene.lights[selected]);
+    AreaLight& light = scene.lights[selected];
+    const int frame = mHost.currentFrame();
+    AreaLight shown = lightAt(light, frame);
+    how(shown);
+    light = changedAt(light, frame, shown);
     mDocument.edit(text, scene, gesture);
+}
+
+void LightsSection::toggleKey()
+{
+    Scene scene = mDocument.scene();
+    const int selected = mDocument.selectedLight();
+    if (selected < 0 || selected >= scene.lights.size())
+        return;
+    AreaLight& light = scene.lights[selected];
+    const int frame = mHost.currentFrame();
+    const bool has = keyFrames(light).contains(frame);
+    light = has ? withoutKey(light, frame) : withKey(light, frame);
+    mDocument.edit(has ? tr("Remove Key") : tr("Add Key"), scene);
 }
 
 } // namespace lampblack

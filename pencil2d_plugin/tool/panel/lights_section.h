@@ -1,8 +1,10 @@
 // The lights of the scene, and the numbers of the selected one.
 #pragma once
 
+#include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/panel/colour_button.h"
+#include "tool/panel/keys_row.h"
 #include "tool/panel/section.h"
 #include "tool/panel/value_row.h"
 
@@ -18,15 +20,17 @@ class LightsSection : public Section
     Q_OBJECT
 
 public:
-    LightsSection(SceneDocument& document, QWidget* parent = nullptr);
+    LightsSection(Host& host, SceneDocument& document, QWidget* parent = nullptr);
 
 private:
     void refresh();
     void addLight();
     void deleteLight();
-    /// Change the selected light.
+    void toggleKey();
+    /// Change the selected light as it is at the current frame.
     void change(const QString& text, int gesture, const std::function<void(AreaLight&)>& how);
 
+    Host& mHost;
     SceneDocument& mDocument;
     QButtonGroup* mChoice;
     std::array<QToolButton*, MaxLights> mLights{};
@@ -37,6 +41,7 @@ private:
     ValueRow* mPower;
     ValueRow* mSize;
     ValueRow* mHeight;
+    KeysRow* mKeys;
 };
 
 /// A button for a row of small tools.

@@ -1,5 +1,6 @@
 #include "tool/panel/surroundings_section.h"
 
+#include "scene/timeline.h"
 #include "tool/materials/material_edit.h"
 
 #include <QHBoxLayout>
@@ -94,8 +95,8 @@ void SurfaceSection::refresh()
     mRoughness->setValue(mDocument.scene().defaultMaterial.roughness);
 }
 
-FloorSection::FloorSection(SceneDocument& document, QWidget* parent)
-    : Section(QStringLiteral("lampblack.panel.floor_section"), tr("Floor"), true, parent),
+FloorSection::FloorSection(Host& host, SceneDocument& document, QWidget* parent)
+    : Section(QStringLiteral("lampblack.panel.floor_section"), tr("Floor"), true, parent), mHost(host),
       mDocument(document), mOn(new QCheckBox(tr("Catch shadows"), this))
 {
     mOn->setObjectName(QStringLiteral("lampblack.panel.floor"));
@@ -109,6 +110,15 @@ FloorSection::FloorSection(SceneDocument& document, QWidget* parent)
     body()->addWidget(mOn);
     body()->addWidget(mPosition);
     body()->addWidget(mPitch);
+    mKeys = new KeysRow(QStringLiteral("lampblack.panel.floor.keys"), host, this);
+    body()->addWidget(mKeys);
+    connect(mKeys, &KeysRow::keyToggled, this, &FloorSection::toggleKey);
+    connect(&host, &Host::frameChanged, this,
+            [this]
+            {
+                if (isKeyed(mDocument.scene()))
+                    refresh();
+            });
     connect(mOn, &QCheckBox::clicked, this,
             [this](bool on)
             {
@@ -133,7 +143,9 @@ void FloorSection::refresh()
     mPosition->setEnabled(scene.floor.has_value());
     mPitch->setEnabled(scene.floor.has_value());
     mPosition->setScale({-Far, Far, double(scene.canvas.height()), 0, false, 0});
-    const Floor floor = scene.floor.value_or(firstFloor(scene));
+    mKeys->setEnabled(scene.floor.has_value());
+    mKeys->setKeys(scene.floor ? keyFrames(*scene.floor) : QVector<int>());
+    const Floor floor = floorAt(scene.floor.value_or(firstFloor(scene)), mHost.currentFrame());
     mPosition->setValue(floor.y);
     mPitch->setValue(floor.pitch);
 }
@@ -143,8 +155,22 @@ void FloorSection::change(const QString& text, int gesture, double Floor::*field
     Scene scene = mDocument.scene();
     if (!scene.floor)
         return;
-    (*scene.floor).*field = value;
+    const int frame = mHost.currentFrame();
+    Floor shown = floorAt(*scene.floor, frame);
+    shown.*field = value;
+    scene.floor = changedAt(*scene.floor, frame, shown);
     mDocument.edit(text, scene, gesture);
+}
+
+void FloorSection::toggleKey()
+{
+    Scene scene = mDocument.scene();
+    if (!scene.floor)
+        return;
+    const int frame = mHost.currentFrame();
+    const bool has = keyFrames(*scene.floor).contains(frame);
+    scene.floor = has ? withoutKey(*scene.floor, frame) : withKey(*scene.floor, frame);
+    mDocument.edit(has ? tr("Remove Key") : tr("Add Key"), scene);
 }
 
 } // namespace lampblack

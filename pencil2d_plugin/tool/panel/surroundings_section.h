@@ -1,8 +1,10 @@
 // What lights and shapes the whole drawing: ambient light, surface and floor.
 #pragma once
 
+#include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/panel/colour_button.h"
+#include "tool/panel/keys_row.h"
 #include "tool/panel/section.h"
 #include "tool/panel/value_row.h"
 
@@ -46,16 +48,19 @@ class FloorSection : public Section
     Q_OBJECT
 
 public:
-    FloorSection(SceneDocument& document, QWidget* parent = nullptr);
+    FloorSection(Host& host, SceneDocument& document, QWidget* parent = nullptr);
 
 private:
     void refresh();
+    void toggleKey();
     void change(const QString& text, int gesture, double Floor::*field, double value);
 
+    Host& mHost;
     SceneDocument& mDocument;
     QCheckBox* mOn;
     ValueRow* mPosition;
     ValueRow* mPitch;
+    KeysRow* mKeys;
 };
 
 } // namespace lampblack

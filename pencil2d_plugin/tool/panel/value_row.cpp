@@ -73,11 +73,15 @@ void ValueRow::changeEvent(QEvent* event)
     QWidget::changeEvent(event);
 }
 
+int ValueRow::labelWidth(const QFontMetrics& metrics)
+{
+    return metrics.horizontalAdvance(tr("Roughness")) + 2;
+}
+
 void ValueRow::align()
 {
-    // All rows share these widths, so that their sliders stand in line.
     const QFontMetrics metrics = fontMetrics();
-    mLabel->setFixedWidth(metrics.horizontalAdvance(tr("Roughness")) + 2);
+    mLabel->setFixedWidth(labelWidth(metrics));
     mField->setFixedWidth(metrics.horizontalAdvance(QStringLiteral("-8888")) + 14);
 }
 

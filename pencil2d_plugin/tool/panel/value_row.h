@@ -35,6 +35,9 @@ public:
     /// `name` ends the objectNames: "<name>" of the slider, "<name>.field" of the field.
     ValueRow(const QString& name, const QString& label, const SliderScale& scale, QWidget* parent = nullptr);
 
+    /// Of every row of the panel: their controls stand in line.
+    static int labelWidth(const QFontMetrics& metrics);
+
     double value() const { return mField->value(); }
     /// Show a value; tells nobody.
     void setValue(double value);

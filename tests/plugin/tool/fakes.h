@@ -51,7 +51,12 @@ public:
     std::optional<QTransform> canvasToWidget() const override { return mView; }
     QSize canvasSize() const override { return {400, 300}; }
     QColor paper() const override { return mPaper; }
-    int currentFrame() const override { return 1; }
+    int currentFrame() const override { return mFrame; }
+    void goToFrame(int frame) override
+    {
+        mFrame = frame;
+        Q_EMIT frameChanged(frame);
+    }
     int frameCount() const override { return 8; }
     double framesPerSecond() const override { return 12; }
     bool isPlaying() const override { return false; }
@@ -92,6 +97,7 @@ public:
     QColor mPaper = Qt::white;
     QVector<Layer> mLayers;
     QVector<Ability> mCannot;
+    int mFrame = 1;
 };
 
 class FakeWorker : public Worker

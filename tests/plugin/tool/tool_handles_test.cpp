@@ -58,7 +58,7 @@ private Q_SLOTS:
         QFETCH(bool, flipped);
         const QTransform view = turnedView(zoom, degrees, flipped);
         const Scene scene = sceneWithLight(210, 140, 200);
-        const Handles handles(scene, 0, view, View);
+        const Handles handles(scene, 1, 0, view, View);
         const QPointF place = view.map(QPointF(210, 140));
         QCOMPARE(handles.lights()[0].centre, place);
         QCOMPARE(handles.lights()[0].ring, qMax(Handles::LeastRing, 50 * zoom));
@@ -73,7 +73,7 @@ private Q_SLOTS:
 
     void aLightBehindThePaperHangsBelow()
     {
-        const Handles handles(sceneWithLight(100, 100, -200), 0, QTransform(), View);
+        const Handles handles(sceneWithLight(100, 100, -200), 1, 0, QTransform(), View);
         QVERIFY(handles.lights()[0].behind);
         QVERIFY(handles.lights()[0].grip.y() > 100);
     }
@@ -81,13 +81,13 @@ private Q_SLOTS:
     void onlyTheSelectedLightOffersItsRing()
     {
         const Scene scene = sceneWithLight(200, 150, 200);
-        QCOMPARE(Handles(scene, 0, QTransform(), View).at({250, 150}).part, HandlePart::Size);
-        QCOMPARE(Handles(scene, -1, QTransform(), View).at({250, 150}).part, HandlePart::None);
+        QCOMPARE(Handles(scene, 1, 0, QTransform(), View).at({250, 150}).part, HandlePart::Size);
+        QCOMPARE(Handles(scene, 1, -1, QTransform(), View).at({250, 150}).part, HandlePart::None);
     }
 
     void aLightOutOfViewIsWithinReachAtTheEdge()
     {
-        const Handles handles(sceneWithLight(5000, -700, 200), 0, QTransform(), View);
+        const Handles handles(sceneWithLight(5000, -700, 200), 1, 0, QTransform(), View);
         QVERIFY(handles.lights()[0].outside);
         QVERIFY(QRectF(QPointF(), View).contains(handles.lights()[0].centre));
         QCOMPARE(handles.at(handles.lights()[0].centre), (Handle{HandlePart::Light, 0}));
@@ -101,12 +101,12 @@ private Q_SLOTS:
         const auto depth = [&scene](double pitch)
         {
             scene.floor->pitch = pitch;
-            const Handles handles(scene, -1, QTransform(), View);
+            const Handles handles(scene, 1, -1, QTransform(), View);
             const FloorShape floor = handles.floor().value_or(FloorShape());
             return floor.patch[2].y() - floor.patch[1].y();
         };
         QVERIFY(depth(80) > 2 * depth(20));
-        const Handles flipped(scene, -1, turnedView(1, 180, false), View);
+        const Handles flipped(scene, 1, -1, turnedView(1, 180, false), View);
         QVERIFY(flipped.floor()->patch[2].y() < flipped.floor()->grip.y());
         QCOMPARE(flipped.at(flipped.floor()->line.center()), (Handle{HandlePart::Floor, -1}));
     }
@@ -115,7 +115,7 @@ private Q_SLOTS:
     {
         Scene scene = sceneWithLight(200, 150, 200);
         scene.lights[0].size = 260;
-        const Handles handles(scene, 0, QTransform(), View);
+        const Handles handles(scene, 1, 0, QTransform(), View);
         QVERIFY(handles.region().contains(QPoint(330, 150)));
         QVERIFY(handles.region().contains(handles.lights()[0].grip.toPoint()));
         QVERIFY2(!handles.region().contains(QPoint(260, 190)), "a ring repaints what it encloses");

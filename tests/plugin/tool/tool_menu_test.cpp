@@ -24,12 +24,13 @@ class MenuTest : public QObject
     Q_OBJECT
 
 private:
+    FakeHost mHost;
     SceneDocument mDocument;
-    LampMenu mMenu{mDocument, nullptr};
+    LampMenu mMenu{mHost, mDocument, nullptr};
 
-    void choose(const char* name, const QString& colour = QString(), int light = -1)
+    void choose(const char* name, const QString& colour = QString(), const Handle& handle = {})
     {
-        mMenu.openAt({120, 80}, QPoint(), light, colour);
+        mMenu.openAt({120, 80}, QPoint(), handle, colour);
         QAction* action = entry(mMenu, name);
         QVERIFY2(action != nullptr, name);
         action->trigger();
@@ -52,7 +53,7 @@ private Q_SLOTS:
     {
         for (int light = 1; light < MaxLights; ++light)
             choose("add_light");
-        mMenu.openAt({}, QPoint(), -1, QString());
+        mMenu.openAt({}, QPoint(), {}, QString());
         QVERIFY(!entry(mMenu, "add_light")->isEnabled());
         mMenu.close();
     }
@@ -61,9 +62,9 @@ private Q_SLOTS:
     {
         choose("add_light");
         const AreaLight second = mDocument.scene().lights[1];
-        choose("delete_light", QString(), 0);
+        choose("delete_light", QString(), {HandlePart::Light, 0});
         QCOMPARE(mDocument.scene().lights, QVector<AreaLight>{second});
-        mMenu.openAt({}, QPoint(), -1, QString());
+        mMenu.openAt({}, QPoint(), {}, QString());
         QVERIFY(entry(mMenu, "delete_light") == nullptr);
         mMenu.close();
     }
