@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lampblack.normals.evaluation.evaluate import PEERS, evaluate
 from lampblack.normals.evaluation.laigter import laigter_normals
 from lampblack.normals.evaluation.lumo_mixed import lumo_mixed_normals
-from lampblack.normals.evaluation.metrics import bootstrap, measure
+from lampblack.normals.evaluation.metrics import bootstrap, means, measure
 from lampblack.normals.silhouette import flat_normals, lumo_normals
 
 Image = NDArray[np.float32]
@@ -47,7 +47,19 @@ def test_the_truth_has_no_error_and_flat_has_its_own() -> None:
 
 def test_a_dent_has_the_wrong_curvature() -> None:
     mask, truth = ball(200, 80.0)
-    assert measure((truth * [-1, -1, 1]).astype(np.float32), truth, mask).curvature < 5
+    dent = (truth * [-1, -1, 1]).astype(np.float32)
+    assert measure(dent, truth, mask).curvature < 5
+    assert measure(truth, dent, mask).concave < 5
+    assert measure(dent, dent, mask).concave == 100
+    assert np.isnan(measure(dent, truth, mask).concave)
+
+
+def test_means_leave_out_drawings_without_hollows() -> None:
+    mask, truth = ball(120, 50.0)
+    dent = (truth * [-1, -1, 1]).astype(np.float32)
+    rows = [measure(dent, dent, mask), measure(truth, truth, mask)]
+    assert means(rows)["concave"] == 100
+    assert np.isnan(means(rows[1:])["concave"])
 
 
 def test_tuned_bevel_makes_a_disk_round_and_regions_puff_up() -> None:

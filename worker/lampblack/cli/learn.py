@@ -50,7 +50,7 @@ CARDS = {
 
 COLUMNS = (
     *("mean", "median", "l1", "l2", "under_11", "under_22", "under_30"),
-    *("tilt", "truth_tilt", "rim", "truth_rim", "curvature", "seconds"),
+    *("tilt", "truth_tilt", "rim", "truth_rim", "curvature", "concave", "seconds"),
 )
 
 
@@ -123,7 +123,8 @@ def evaluate(
         typer.Option(
             "--methods",
             help="Of lampblack, paper, flat, laigter, laigter-tuned, inflate, "
-            "lumo, lumo-mixed, or NAME=FILE.safetensors; the others are compared with the first.",
+            "lumo, lumo-mixed; or NAME=FILE.safetensors for weights of your own, say "
+            "hudon2018=runs/first/network.safetensors. The others are compared with the first.",
         ),
     ] = "lampblack,paper,flat,laigter,laigter-tuned,inflate,lumo,lumo-mixed",
     views: Annotated[int, typer.Option(min=1, max=64, help="Sides of each model.")] = 8,
@@ -186,6 +187,6 @@ def _method(named: str) -> tuple[str, Method]:
     if name not in PEERS:
         raise LampblackError(
             f"There is no method {name!r}.",
-            f"Known: lampblack, paper, {', '.join(PEERS)} or NAME=FILE.",
+            f"Known: lampblack, paper, {', '.join(PEERS)}; and NAME=FILE for weights of your own.",
         )
     return name, PEERS[name]

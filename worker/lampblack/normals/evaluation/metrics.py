@@ -28,6 +28,7 @@ class Errors:
         tilt: mean angle between predicted normal and view, degrees; truth_tilt likewise.
         rim: mean elevation above the picture plane along the silhouette; truth_rim likewise.
         curvature: percent of curved pixels whose divergence has the sign of the truth's.
+        concave: the same, of hollow pixels only; nan if there are none.
     """
 
     mean: float
@@ -42,6 +43,7 @@ class Errors:
     rim: float
     truth_rim: float
     curvature: float
+    concave: float
 
 
 def measure(
@@ -52,6 +54,7 @@ def measure(
     angle = np.degrees(np.arccos(np.clip(np.einsum("nc,nc->n", a, b), -1, 1)))
     distance = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
     rim = mask & (distance <= max(1.0, RIM_SHARE * max(mask.shape)))
+    curvature, concave = _same_curvature(found, truth, mask)
     return Errors(
         mean=float(angle.mean()),
         median=float(np.median(angle)),
@@ -64,15 +67,18 @@ def measure(
         truth_tilt=_tilt(b),
         rim=90 - _tilt(found[rim]),
         truth_rim=90 - _tilt(truth[rim]),
-        curvature=_same_curvature(found, truth, mask),
+        curvature=curvature,
+        concave=concave,
     )
 
 
 def means(rows: list[Errors]) -> dict[str, float]:
-    """Mean over drawings of every figure."""
+    """Mean over drawings of every figure, those left out that have none."""
+    columns = {f.name: np.array([getattr(row, f.name) for row in rows]) for f in fields(Errors)}
+    known = {name: values[np.isfinite(values)] for name, values in columns.items()}
     return {
-        field.name: round(float(np.mean([getattr(row, field.name) for row in rows])), 4)
-        for field in fields(Errors)
+        name: round(float(values.mean()), 4) if len(values) else float("nan")
+        for name, values in known.items()
     }
 
 
@@ -102,16 +108,22 @@ def _tilt(normals: NDArray[np.float32]) -> float:
 
 def _same_curvature(
     found: NDArray[np.float32], truth: NDArray[np.float32], mask: NDArray[np.bool_]
-) -> float:
+) -> tuple[float, float]:
+    """Percent of the curved and of the hollow pixels."""
     size = max(mask.shape)
     inner = ndimage.binary_erosion(mask, iterations=max(2, size // 100))
     bends = []
+    sigma = size / 128
+    share = ndimage.gaussian_filter(mask.astype(np.float32), sigma)[..., None]
     for normals in (found, truth):
-        smooth = ndimage.gaussian_filter(normals, (size / 128, size / 128, 0))
+        smooth = ndimage.gaussian_filter(normals, (sigma, sigma, 0)) / np.maximum(share, 1e-3)
         bends.append(
             size * (np.gradient(smooth[..., 0], axis=1) - np.gradient(smooth[..., 1], axis=0))
         )
-    curved = inner & (np.abs(bends[1]) > _CURVED)
-    if not curved.any():
-        return 100.0
-    return 100 * float((np.sign(bends[0]) == np.sign(bends[1]))[curved].mean())
+    same = np.sign(bends[0]) == np.sign(bends[1])
+    hollow = inner & (bends[1] < -_CURVED)
+    curved = hollow | (inner & (bends[1] > _CURVED))
+    return (
+        100 * float(same[curved].mean()) if curved.any() else 100.0,
+        100 * float(same[hollow].mean()) if hollow.any() else float("nan"),
+    )
