@@ -78,6 +78,7 @@ KeysRow::KeysRow(const QString& name, Host& host, QWidget* parent)
         buttons->addWidget(each);
     row->addLayout(buttons);
     align();
+    drawIcons();
     connect(mHere, &QToolButton::clicked, this, &KeysRow::keyToggled);
     connect(mPrevious, &QToolButton::clicked, this, [this] { mHost.goToFrame(before()); });
     connect(mNext, &QToolButton::clicked, this, [this] { mHost.goToFrame(after()); });
@@ -99,7 +100,10 @@ void KeysRow::changeEvent(QEvent* event)
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange)
         align();
     if (event->type() == QEvent::PaletteChange)
+    {
+        drawIcons();
         follow();
+    }
     QWidget::changeEvent(event);
 }
 
@@ -108,13 +112,19 @@ void KeysRow::align()
     mLabel->setFixedWidth(ValueRow::labelWidth(fontMetrics()));
 }
 
+void KeysRow::drawIcons()
+{
+    mKey = diamondIcon(true, palette(), devicePixelRatioF());
+    mNoKey = diamondIcon(false, palette(), devicePixelRatioF());
+}
+
 void KeysRow::follow()
 {
     const int frame = mHost.currentFrame();
     const bool has = mFrames.contains(frame);
     const bool full = !has && mFrames.size() >= MaxKeys;
     mStrip->setTime(frame, mHost.frameCount());
-    mHere->setIcon(diamondIcon(has, palette(), devicePixelRatioF()));
+    mHere->setIcon(has ? mKey : mNoKey);
     mHere->setEnabled(!full);
     tell(mHere, full  ? tr("%1 keys at most").arg(MaxKeys)
                 : has ? tr("Remove the key at frame %1").arg(frame)

@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "tool/panel/key_strip.h"
 
+#include <QIcon>
 #include <QLabel>
 #include <QToolButton>
 
@@ -32,12 +33,15 @@ protected:
 
 private:
     void align();
+    void drawIcons();
     void follow();
     int before() const; ///< the frame of the key before the current frame; 0 if there is none
     int after() const;
 
     Host& mHost;
     QVector<int> mFrames;
+    QIcon mKey; ///< made once, for Qt keeps the pixmap of every icon that it painted
+    QIcon mNoKey;
     QLabel* mLabel;
     KeyStrip* mStrip;
     QToolButton* mPrevious;

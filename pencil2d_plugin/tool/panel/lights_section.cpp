@@ -131,8 +131,12 @@ void LightsSection::refresh()
         QToolButton* button = mLights[size_t(light)];
         button->setVisible(light < scene.lights.size());
         button->setChecked(light == selected);
-        if (light < scene.lights.size())
+        // Qt keeps the pixmap of every icon that it painted: a new one at each move would pile up.
+        if (light < scene.lights.size() && mDiscs[size_t(light)] != scene.lights[light].colour)
+        {
+            mDiscs[size_t(light)] = scene.lights[light].colour;
             button->setIcon(colourIcon(scene.lights[light].colour, DiscSide, devicePixelRatioF()));
+        }
     }
     mAdd->setEnabled(scene.lights.size() < MaxLights);
     const bool has = selected >= 0 && selected < scene.lights.size();

@@ -34,6 +34,7 @@ private:
     SceneDocument& mDocument;
     QButtonGroup* mChoice;
     std::array<QToolButton*, MaxLights> mLights{};
+    std::array<QColor, MaxLights> mDiscs; ///< colours of their icons
     QToolButton* mAdd;
     QToolButton* mDelete;
     QWidget* mNumbers;
