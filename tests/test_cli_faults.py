@@ -151,7 +151,7 @@ def test_output_that_would_lose_something_is_refused(
     save_picture(other / "ball.png", draw_ball(64))
     assert run("render", ball_png, other, "-o", tmp_path / "lit").code == 1
     assert run("mesh", ball_png, "-o", tmp_path / "ball.fbx").code == 1
-    assert run("normals", ball_png, "-o", tmp_path / "nowhere" / "n.npy").code == 1
+    assert run("normals", ball_png, "-o", tmp_path / "in-the-way" / "n.npy").code == 1
     assert run("normals", ball_png, "-o", ball_png).code == 1
     lit = ("-o", tmp_path / "lit")
     assert run("render", ball_png, *lit, "--contact-sheet", ball_png).code == 1

@@ -154,12 +154,13 @@ def test_an_order_is_the_same_on_the_command_line(tmp_path: Path) -> None:
     order = Order(
         inputs=("walk.pclx",), output="lit.%04d.exr", lights=("-1,2,3", "4,5,6"), floor=-3.5,
         quality="final", frames="1-3", format="exr", grids=2, solver="adam",
-        roles={"-ball": "character", "sky": "background"}, camera="Crane", again=True,
+        roles={"-ball": "character", "sky": "background"}, camera="Crane", steady=False,
+        again=True,
     )  # fmt: skip
     assert order.arguments() == [
         "walk.pclx", "-o", "lit.%04d.exr", "--light=-1,2,3", "--light=4,5,6", "--floor=-3.5",
         "--quality=final", "--frames=1-3", "--format=exr", "--grids=2", "--solver=adam",
-        "--camera=Crane", "--character=-ball", "--background=sky", "--again",
+        "--camera=Crane", "--character=-ball", "--background=sky", "--no-steady", "--again",
     ]  # fmt: skip
 
 

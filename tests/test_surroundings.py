@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conftest import draw_ball
+from conftest import Run, draw_ball, files
 from lampblack.cache import ArrayCache
 from lampblack.drawing import save_picture
 from lampblack.finals.order import Order, open_shot
@@ -87,3 +87,24 @@ def test_a_drawing_on_its_own_has_no_neighbours(tmp_path: Path) -> None:
     opened = open_shot(order)
     with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
         assert Surroundings(opened.shot, pipeline).beside(opened.frames[0]) is None
+
+
+def test_normals_and_meshes_of_a_shot_are_steadied_unless_told_otherwise(
+    shot: Order, run: Run, tmp_path: Path
+) -> None:
+    folder = Path(shot.inputs[0])
+    told = run("normals", folder, "-o", tmp_path / "s.%04d.npy")
+    assert (told.code, "walk.0005.png" in told.err) == (0, True)
+    assert run("normals", folder, "-o", tmp_path / "p.%04d.npy", "--no-steady").code == 0
+    assert files(tmp_path) >= {f"{kind}.000{n}.npy" for kind in "sp" for n in (1, 2, 3, 4, 6)}
+    assert not (tmp_path / "s.0005.npy").exists()
+    found = {name: np.load(tmp_path / f"{name}.npy") for name in ("s.0001", "s.0002", "p.0001")}
+    assert np.array_equal(found["s.0001"], found["s.0002"])
+    assert not np.array_equal(found["s.0001"], found["p.0001"])
+    # One frame of a shot is as in the shot; a drawing named alone is as predicted.
+    assert run("normals", folder, "--frames", 1, "-o", tmp_path / "one.npy").code == 0
+    assert np.array_equal(np.load(tmp_path / "one.npy"), found["s.0001"])
+    assert run("normals", folder / "walk.0001.png", "-o", tmp_path / "one.npy").code == 0
+    assert np.array_equal(np.load(tmp_path / "one.npy"), found["p.0001"])
+    assert run("mesh", folder, "--stride", 4, "-o", tmp_path / "meshes").code == 0
+    assert files(tmp_path / "meshes") == {f"walk.000{n}.glb" for n in (1, 2, 3, 4, 6)}

@@ -18,7 +18,8 @@ from .job import job
 from .learn import evaluate, train
 from .render import render
 from .serve import serve
-from .stages import mesh, normals, palette, scene
+from .stages import palette, scene
+from .surface import mesh, normals
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 
-from ..drawing import take_apart
 from ..errors import LampblackError
 from ..finals.order import Order, open_shot
 from ..finals.scene_file import SUFFIXES, save_scene
-from ..pipeline import Pipeline, PipelineOptions
+from ..finals.surroundings import Surroundings
+from ..pipeline import Pipeline
 from ..scene import Canvas
 from ..timeline import scene_at
 from .options import (
@@ -23,6 +23,7 @@ from .options import (
     MaskOption,
     QualityOption,
     SceneOption,
+    SteadyOption,
     check_suffix,
     keep_inputs,
     layer_roles,
@@ -42,6 +43,7 @@ def export(
     line: LineOption = None,
     background: BackgroundOption = None,
     camera: CameraOption = None,
+    steady: SteadyOption = True,
     mask: MaskOption = None,
     ink: InkOption = None,
 ) -> None:
@@ -63,15 +65,16 @@ def export(
         ink=None if ink is None else str(ink),
         roles=layer_roles(character, line, background),
         camera=camera,
+        steady=steady,
     )
     opened = open_shot(order)
     if not opened.frames:
         raise LampblackError("There is no frame to export.")
     chosen = opened.frames[0]
-    cel = opened.shot.cel(chosen)
-    taken = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
-    canvas = opened.shot.canvas or Canvas(*taken.size)
-    staged = scene_at(opened.staging.scene(canvas), chosen.number or 1)
-    staged = opened.shot.place(staged, taken.size)
-    with Pipeline(open_cache(), PipelineOptions()) as pipeline:
-        save_scene(pipeline, taken, staged, output)
+    with Pipeline(open_cache()) as pipeline:
+        surroundings = Surroundings(opened.shot, pipeline, opened.reach)
+        taken, beside = surroundings.drawing(chosen), surroundings.beside(chosen)
+        canvas = opened.shot.canvas or Canvas(*taken.size)
+        staged = scene_at(opened.staging.scene(canvas), chosen.number or 1)
+        staged = opened.shot.place(staged, taken.size)
+        save_scene(pipeline, taken, staged, output, beside)

@@ -23,6 +23,7 @@ from .options import (
     MaskOption,
     QualityOption,
     SceneOption,
+    SteadyOption,
     check_suffix,
     layer_roles,
 )
@@ -46,6 +47,7 @@ def job(
     line: LineOption = None,
     background: BackgroundOption = None,
     camera: CameraOption = None,
+    steady: SteadyOption = True,
     mask: MaskOption = None,
     ink: InkOption = None,
 ) -> None:
@@ -70,6 +72,7 @@ def job(
         ink=None if ink is None else str(ink),
         roles=layer_roles(character, line, background),
         camera=camera,
+        steady=steady,
     ).absolute()
     wanted = open_shot(order).frames
     if frames is not None:

@@ -7,12 +7,9 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
-from numpy.typing import NDArray
 
 from ..cache import ArrayCache, user_cache_folder
-from ..drawing import Drawing, load_picture, take_apart
 from ..errors import LampblackError
 from ..project.stack import Role
 
@@ -83,6 +80,12 @@ GridsOption = Annotated[
         "--grids", min=0, max=64, help="0: the whole figure at once; else the paper's grids."
     ),
 ]
+SteadyOption = Annotated[
+    bool,
+    typer.Option(
+        "--steady/--no-steady", help="Lay the drawings beside each one onto it, against flicker."
+    ),
+]
 SolverOption = Annotated[Solver, typer.Option("--solver", help="How normals become a surface.")]
 
 
@@ -106,15 +109,6 @@ def layer_roles(
 def open_cache() -> ArrayCache:
     """The cache that every command of this user shares."""
     return ArrayCache(user_cache_folder() / "surfaces")
-
-
-def read_drawing(path: Path, mask: Path | None, ink: Path | None) -> Drawing:
-    """Load a drawing and take it apart, with the artist's own mask or ink if named."""
-    return take_apart(load_picture(path), mask=_optional(mask), ink=_optional(ink))
-
-
-def _optional(path: Path | None) -> NDArray[np.uint8] | None:
-    return None if path is None else load_picture(path)
 
 
 def keep_inputs(output: Path, inputs: Iterable[Path]) -> None:

@@ -33,6 +33,7 @@ from .options import (
     SceneOption,
     Solver,
     SolverOption,
+    SteadyOption,
     check_suffix,
     keep_inputs,
     layer_roles,
@@ -69,6 +70,7 @@ def render(
     line: LineOption = None,
     background: BackgroundOption = None,
     camera: CameraOption = None,
+    steady: SteadyOption = True,
     mask: MaskOption = None,
     ink: InkOption = None,
     grids: GridsOption = DEFAULT_GRIDS,
@@ -116,6 +118,7 @@ def render(
         solver=solver.value,
         roles=layer_roles(character, line, background),
         camera=camera,
+        steady=steady,
         again=again,
     )
     opened = open_order(order)

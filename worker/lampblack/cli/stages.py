@@ -1,4 +1,4 @@
-"""One stage at a time: ``normals``, ``mesh``, ``palette`` and ``scene``."""
+"""``lampblack palette`` and ``scene``: what a scene is set up from."""
 
 from __future__ import annotations
 
@@ -10,89 +10,23 @@ from pathlib import Path
 from typing import Annotated
 
 import msgspec
-import numpy as np
 import typer
 from rich.console import Console
 from rich.table import Table
 
 from ..atomic import atomic_file
-from ..drawing import save_picture, take_apart
+from ..drawing import take_apart
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
 from ..finals.order import OpenShot, Order, open_shot
 from ..finals.shot import by_drawing
-from ..normals.predict import DEFAULT_GRIDS
-from ..pipeline import Pipeline, PipelineOptions
 from ..scene import Canvas, Material, default_scene, encode_scene
-from ..surface import save_mesh
 from .console import progress_bar
 from .options import (
-    GridsOption,
     InkOption,
     InputsArgument,
     MaskOption,
-    Solver,
-    SolverOption,
     check_suffix,
-    keep_inputs,
-    open_cache,
-    read_drawing,
 )
-
-Drawn = Annotated[Path, typer.Argument(metavar="DRAWING", help="A PNG.")]
-
-
-def normals(
-    drawing: Drawn,
-    output: Annotated[Path, typer.Option("-o", "--output", help="A .png or .npy file.")],
-    grids: GridsOption = DEFAULT_GRIDS,
-    mask: MaskOption = None,
-    ink: InkOption = None,
-) -> None:
-    """Predict the normal map of a drawing.
-
-    .npy holds (H, W, 3) float32, x right, y up, z to the viewer, unit in the mask, 0 outside;
-    .png the same from -1..1 to 0..255, transparent outside.
-
-    Example: lampblack normals hero.png -o hero.normals.png
-    """
-    check_suffix(output, ".png", ".npy")
-    keep_inputs(output, [drawing, *filter(None, (mask, ink))])
-    taken = read_drawing(drawing, mask, ink)
-    with Pipeline(open_cache(), PipelineOptions(grids=grids)) as pipeline, progress_bar() as bar:
-        task = bar.add_task("Predicting", total=100)
-        found = pipeline.normals(taken, lambda share: bar.update(task, completed=int(100 * share)))
-    if output.suffix.lower() == ".npy":
-        with atomic_file(output) as file:
-            np.save(file, found, allow_pickle=False)
-        return
-    colours = np.round((found * 0.5 + 0.5) * 255) * taken.mask[..., None]
-    save_picture(output, np.dstack([colours, taken.mask * 255]).astype(np.uint8))
-
-
-def mesh(
-    drawing: Drawn,
-    output: Annotated[Path, typer.Option("-o", "--output", help="A .glb, .obj or .ply file.")],
-    solver: SolverOption = Solver.DIRECT,
-    grids: GridsOption = DEFAULT_GRIDS,
-    stride: Annotated[int, typer.Option(min=1, max=64, help="Pixels between two vertices.")] = 1,
-    relief_scale: Annotated[
-        float, typer.Option(min=0.01, max=10, help="Depth, 1 as predicted.")
-    ] = 1.0,
-    mask: MaskOption = None,
-    ink: InkOption = None,
-) -> None:
-    """Inflate a drawing into a closed relief mesh, in pixels, y up, z to the viewer.
-
-    Example: lampblack mesh hero.png -o hero.glb
-    """
-    check_suffix(output, ".glb", ".obj", ".ply")
-    taken = read_drawing(drawing, mask, ink)
-    options = PipelineOptions(grids, solver.value)
-    with Pipeline(open_cache(), options) as pipeline, progress_bar() as bar:
-        task = bar.add_task("Inflating", total=100)
-        pipeline.height(taken, lambda share: bar.update(task, completed=int(99 * share)))
-        relief = pipeline.relief(taken, relief_scale=relief_scale, stride=stride)
-    save_mesh(relief, output)
 
 
 def palette(

@@ -10,6 +10,7 @@ import msgspec
 
 from ..drawing import find_frames, load_picture, parse_frames, select_frames
 from ..errors import LampblackError
+from ..normals.temporal.steady import REACH
 from ..pipeline import PipelineOptions, SolverName
 from ..project import is_project, read_project
 from ..project.shot import ProjectShot
@@ -33,6 +34,7 @@ class Order(msgspec.Struct, frozen=True, kw_only=True):
         frames: a list such as ``1-20x2,25``; None is all.
         roles: of a project's layers, by name; over those in the scene.
         camera: of a project; None is the first.
+        steady: normals follow those of the drawings beside each.
         again: make also what is there already and up to date.
     """
 
@@ -50,6 +52,7 @@ class Order(msgspec.Struct, frozen=True, kw_only=True):
     solver: SolverName = "direct"
     roles: dict[str, Role] = {}
     camera: str | None = None
+    steady: bool = True
     again: bool = False
 
     def absolute(self) -> Order:
@@ -75,6 +78,7 @@ class Order(msgspec.Struct, frozen=True, kw_only=True):
                 # One word, so that a value may begin with a dash.
                 words += [f"{option}={one}"] if one is not None else []
         words += [f"--{role}={name}" for name, role in self.roles.items()]
+        words += [] if self.steady else ["--no-steady"]
         return words + (["--again"] if self.again else [])
 
 
@@ -87,6 +91,7 @@ class OpenShot:
         staging: how they are lit.
         sources: the files that are read.
         single: the shot is a single drawing, not one of many.
+        reach: drawings to either side of each that its normals follow.
     """
 
     shot: Shot
@@ -94,6 +99,7 @@ class OpenShot:
     staging: Staging
     sources: list[Path]
     single: bool
+    reach: int
 
 
 @dataclass(frozen=True)
@@ -142,7 +148,7 @@ def open_shot(order: Order) -> OpenShot:
         sources = [frame.path for frame in found]
     frames = _chosen(shot.frames, order.frames)
     staging = Staging(read, order.lights, order.floor, order.quality)
-    return OpenShot(shot, frames, staging, sources, single)
+    return OpenShot(shot, frames, staging, sources, single, REACH if order.steady else 0)
 
 
 def sidecar_of(project: str | Path) -> Path:

@@ -13,8 +13,9 @@ from trimesh.visual.texture import TextureVisuals
 
 from ..atomic import atomic_file, atomic_path
 from ..drawing import Drawing
+from ..normals.temporal.steady import Beside
 from ..pipeline import Pipeline
-from ..render import QUALITIES, frame_request, frame_surface, standing_on
+from ..render import frame_request, standing_on
 from ..scene import Scene
 from ..surface import Relief
 
@@ -22,7 +23,9 @@ SUFFIXES = (".glb", ".blend")
 GLOSSY, MATT = 0.5, 1.0
 
 
-def save_scene(pipeline: Pipeline, drawing: Drawing, scene: Scene, path: Path) -> None:
+def save_scene(
+    pipeline: Pipeline, drawing: Drawing, scene: Scene, path: Path, beside: Beside | None = None
+) -> None:
     """Write the relief in its drawing's colours; into a .blend also lights, floor and camera.
 
     Both: half the canvas's long side is 1, the canvas's centre is the origin, x right, y up, z
@@ -31,13 +34,12 @@ def save_scene(pipeline: Pipeline, drawing: Drawing, scene: Scene, path: Path) -
     Raises:
         OutputError: it cannot be written. RenderError: Blender failed.
     """
-    relief = pipeline.relief(
-        drawing, relief_scale=scene.relief_scale, stride=QUALITIES[scene.quality].mesh_stride
-    )
+    surface = pipeline.surface(drawing, scene, beside)
+    relief = surface.relief
     if path.suffix.lower() == ".glb":
         _save_glb(drawing, relief, scene, path)
         return
-    request = frame_request(drawing, frame_surface(drawing, relief, scene), scene)
+    request = frame_request(drawing, surface, scene)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
     materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
     materials.append(scene.default_material)

@@ -21,17 +21,21 @@ class Surroundings:
     """Finds what is around the drawings of a shot, whichever of its frames are lit.
 
     The last few drawings are held whole, and a few more in miniature. ``check`` is called before
-    each that is taken apart: what it raises ends the search.
+    each that is taken apart: what it raises ends the search. ``reach`` of 0 leaves each alone.
     """
 
     def __init__(
-        self, shot: Shot, pipeline: Pipeline, check: Callable[[], None] = lambda: None
+        self,
+        shot: Shot,
+        pipeline: Pipeline,
+        reach: int = REACH,
+        check: Callable[[], None] = lambda: None,
     ) -> None:
         self._shot = shot
         self._check = check
         self._pipeline = pipeline
         self._frames = {frame.drawing: frame for frame in reversed(shot.frames)}
-        self._names = neighbours([frame.drawing for frame in shot.frames], REACH)
+        self._names = neighbours([frame.drawing for frame in shot.frames], reach)
         self._drawings: OrderedDict[str, Drawing] = OrderedDict()
         self._small: OrderedDict[str, Miniature] = OrderedDict()
 

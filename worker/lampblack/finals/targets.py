@@ -24,21 +24,27 @@ class Targets:
 
     Args:
         output: as it was named.
-        kind: of the files; None goes by the pattern's suffix, else PNG.
+        kind: of the files; None goes by the pattern's suffix, else the first of ``kinds``.
+        kinds: that can be written, as suffixes.
 
     Raises:
         LampblackError: the pattern's suffix is of no kind that can be written, or not ``kind``.
     """
 
-    def __init__(self, output: str, kind: Kind | None = None) -> None:
+    def __init__(
+        self,
+        output: str,
+        kind: str | None = None,
+        kinds: tuple[str, ...] = get_args(Kind),
+    ) -> None:
         self._path = Path(output)
         number = list(_NUMBER.finditer(self._path.name))
         suffix = self._path.suffix.lower().removeprefix(".")
-        named = suffix in get_args(Kind) and not self._path.is_dir()
+        named = suffix in kinds and not self._path.is_dir()
         if number and not named:
             raise LampblackError(
                 f"{output} is of no kind that can be written here.",
-                "Name a folder, or files that end in .png or .exr.",
+                f"Name a folder, or files that end in {' or '.join(f'.{kind}' for kind in kinds)}.",
             )
         if len(number) > 1:
             raise LampblackError(f"{output} has two places for the number.", "Leave one.")
@@ -46,7 +52,7 @@ class Targets:
             raise LampblackError(
                 f"{output} ends in .{suffix}, but --format says {kind}.", "Leave one of them out."
             )
-        self.kind: Kind = "exr" if "exr" in (kind, suffix if named else None) else "png"
+        self.kind = kind or (suffix if named else kinds[0])
         self._number = number[0] if number else None
         self._named = named
 

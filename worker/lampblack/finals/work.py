@@ -75,7 +75,7 @@ class _Planner:
     def __init__(self, order: OpenOrder, pipeline: Pipeline, check: Callable[[], None]) -> None:
         self._order = order
         self._pipeline = pipeline
-        self._surroundings = Surroundings(order.shot, pipeline, check)
+        self._surroundings = Surroundings(order.shot, pipeline, order.reach, check)
         self._made_by = digest(__version__, order.options, _weights())
         self._canvas: Canvas | None = None
 
