@@ -17,6 +17,7 @@
 #include <QVector>
 #include <QWidget>
 
+#include <functional>
 #include <optional>
 
 namespace lampblack
@@ -120,6 +121,9 @@ public:
     // Project
     virtual QString projectPath() const = 0; ///< absolute; empty while untitled
     virtual bool isModified() const = 0;
+    /// `mayLeave` is called before New, Open or a recent file puts another project in this one's place, and may
+    /// ask the artist; false keeps the project. A closing window says so itself: QEvent::Close.
+    virtual void guardLeaving(const std::function<bool()>& mayLeave) = 0;
     virtual bool openProject(const QString& path) = 0;
     /// Save the project where it is; false if it was not written.
     virtual bool saveProject() = 0;

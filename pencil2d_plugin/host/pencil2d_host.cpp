@@ -28,7 +28,7 @@ bool isSame(const Layer& a, const Layer& b)
 } // namespace
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
-    : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
+    : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr), mLeaving(parts, nullptr),
       mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
       mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr), mOptions(parts, nullptr),
       mCanvasSize(DefaultCanvas)

@@ -5,6 +5,7 @@
 #include "host/drawing_watch.h"
 #include "host/frame_queue.h"
 #include "host/layer_delivery.h"
+#include "host/leave_guard.h"
 #include "host/options_page.h"
 #include "host/project_watch.h"
 #include "host/tool_palette.h"
@@ -49,6 +50,7 @@ public:
 
     QString projectPath() const override { return mProject.path(); }
     bool isModified() const override { return mProject.isModified(); }
+    void guardLeaving(const std::function<bool()>& mayLeave) override { mLeaving.set(mayLeave); }
     bool openProject(const QString& path) override { return mProject.open(path); }
     bool saveProject() override { return mProject.save(); }
 
@@ -74,6 +76,7 @@ private:
     Idleness mIdleness;
     Transport mTransport;
     ProjectWatch mProject;
+    LeaveGuard mLeaving;
     LayerRows mRows;
     mutable ViewReader mView;
     FrameQueue mQueue;

@@ -36,6 +36,7 @@ ProjectWatch::ProjectWatch(const Parts& parts, QObject* parent)
     mSettle.setInterval(SettleMs);
     connect(&mSettle, &QTimer::timeout, this, &ProjectWatch::settle);
     parts.window->installEventFilter(this);
+    connect(qApp, &QCoreApplication::aboutToQuit, this, &ProjectWatch::tellOfSave);
     if (has(parts.editor, "objectLoaded()"))
         connect(parts.editor, SIGNAL(objectLoaded()), this, SLOT(onLoaded()));
     for (const char* name : {"actionSave", "actionSave_as"})
@@ -91,17 +92,28 @@ void ProjectWatch::settle()
         return;
     }
     const QString path = projectOf(mParts.window->windowTitle());
-    const QDateTime written = writtenAt(path);
-    const bool rewritten = path != mPath || written != mWritten;
-    mPath = path;
-    mWritten = written;
-    if (mLoaded)
+    if (!mLoaded)
     {
-        mLoaded = false;
-        Q_EMIT opened(path);
+        if (path != mPath)
+            mWritten = QDateTime();
+        mPath = path;
+        tellOfSave();
+        return;
     }
-    else if (rewritten && !path.isEmpty())
-        Q_EMIT saved(path);
+    tellOfSave(); // of the one before, where the artist was asked and said so
+    mLoaded = false;
+    mPath = path;
+    mWritten = writtenAt(path);
+    Q_EMIT opened(path);
+}
+
+void ProjectWatch::tellOfSave()
+{
+    const QDateTime written = writtenAt(mPath);
+    if (written == mWritten)
+        return;
+    mWritten = written;
+    Q_EMIT saved(mPath);
 }
 
 } // namespace lampblack

@@ -36,6 +36,7 @@ private Q_SLOTS:
 
 private:
     void settle();
+    void tellOfSave();
 
     Parts mParts;
     QTimer mSettle;

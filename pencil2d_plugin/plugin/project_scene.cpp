@@ -20,18 +20,29 @@ ProjectScene::ProjectScene(Host& host, SceneDocument& document, const LitLayer& 
     connect(&host, &Host::frameExported, this,
             [this](const FrameExport& frame) { fitCanvas(frame.image.size()); });
     host.window()->installEventFilter(this);
+    host.guardLeaving([this] { return mayLeave(); });
     open(host.projectPath());
+}
+
+ProjectScene::~ProjectScene()
+{
+    mHost.guardLeaving({});
 }
 
 bool ProjectScene::eventFilter(QObject* watched, QEvent* event)
 {
+    if (event->type() != QEvent::Close || watched != mHost.window() || mayLeave())
+        return false;
+    event->ignore();
+    return true;
+}
+
+bool ProjectScene::mayLeave()
+{
     const bool isLosing = mDocument.isModified() || mLayer.isUnsaved();
-    if (event->type() != QEvent::Close || watched != mHost.window() || !isLosing ||
-        mHost.projectPath().isEmpty())
-        return false;
     // With changes of its own Pencil2D asks to save, and the light is saved with the project.
-    if (mHost.isModified())
-        return false;
+    if (!isLosing || mHost.projectPath().isEmpty() || mHost.isModified())
+        return true;
     const QString title = mLayer.isUnsaved() ? tr("Save the lit layer?") : tr("Save the light?");
     const QString question =
         mLayer.isUnsaved() ? tr("The project has a new layer of lit frames, not saved yet. Save the project?")
@@ -39,10 +50,7 @@ bool ProjectScene::eventFilter(QObject* watched, QEvent* event)
     const auto answer = QMessageBox::question(mHost.window(), title, question,
                                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
                                               QMessageBox::Save);
-    const bool stay = answer == QMessageBox::Cancel || (answer == QMessageBox::Save && !save());
-    if (stay)
-        event->ignore();
-    return stay;
+    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && save());
 }
 
 bool ProjectScene::save()

@@ -14,12 +14,15 @@ class ProjectScene : public QObject
 
 public:
     ProjectScene(Host& host, SceneDocument& document, const LitLayer& layer, QObject* parent = nullptr);
+    ~ProjectScene() override;
 
-    /// Asks before the window closes over light, or a layer of ours, that the project's own question would
-    /// not cover.
+    /// Asks before the window closes, or another project comes, over light or a layer of ours that the
+    /// project's own question would not cover.
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    /// False keeps the project.
+    bool mayLeave();
     void open(const QString& path);
     bool save();
     void fitCanvas(const QSize& size);

@@ -5,6 +5,8 @@
 #include <QDialog>
 #include <QGridLayout>
 #include <QLabel>
+#include <QMenuBar>
+#include <QShortcutEvent>
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QTest>
@@ -55,6 +57,11 @@ class TimeLineCells : public QWidget
     Q_OBJECT
 public Q_SLOTS:
     void vScrollChange(int) {}
+};
+
+class RecentFileMenu : public QMenu
+{
+    Q_OBJECT
 };
 
 class MainWindow2 : public QMainWindow
@@ -179,6 +186,63 @@ private Q_SLOTS:
         const Exported exported = dialog.run(1, 3, {}, QStringLiteral("/nowhere"));
         QVERIFY(exported.files.isEmpty());
         QVERIFY(!exported.fault.isEmpty());
+    }
+
+    void anotherProjectAsksFirst()
+    {
+        const auto window = bareWindow();
+        QMenu* file = window->menuBar()->addMenu(QStringLiteral("&File"));
+        file->setObjectName(QStringLiteral("menuFile"));
+        int left = 0;
+        const auto add = [&](QMenu* menu, const char* name)
+        {
+            QAction* action = menu->addAction(QLatin1String(name));
+            action->setObjectName(QLatin1String(name));
+            connect(action, &QAction::triggered, window.get(), [&left] { ++left; });
+            return action;
+        };
+        QAction* open = add(file, "actionOpen");
+        open->setShortcut(QKeySequence::Open);
+        auto* recent = new RecentFileMenu;
+        file->addMenu(recent);
+        add(recent, "walk.pclx");
+        recent->addSeparator();
+        add(recent, "clear");
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QVERIFY(host != nullptr);
+        int asked = 0;
+        bool may = false;
+        host->guardLeaving(
+            [&]
+            {
+                ++asked;
+                return may;
+            });
+        const auto choose = [&](QMenu* menu, int entry)
+        {
+            menu->popup({});
+            for (int down = 0; down <= entry; ++down)
+                QTest::keyClick(menu, Qt::Key_Down);
+            QTest::keyClick(menu, Qt::Key_Return);
+            QCoreApplication::processEvents();
+        };
+        for (const bool agreed : {false, true})
+        {
+            may = agreed;
+            const int before = left;
+            choose(file, 0);
+            QShortcutEvent shortcut(open->shortcut(), 0);
+            QCoreApplication::sendEvent(open, &shortcut);
+            choose(recent, 0);
+            QCOMPARE(left, before + (agreed ? 3 : 0));
+        }
+        QCOMPARE(asked, 6);
+        choose(recent, 1);
+        QCOMPARE(left, 4);
+        QCOMPARE(asked, 6);
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        QVERIFY(open->isVisible());
+        QCOMPARE(file->actions().size(), 2);
     }
 
     void windowMayGoFirst()

@@ -66,6 +66,7 @@ public:
     void deliverLayer(const QString&, const QMap<int, QString>&) override {}
     QString projectPath() const override { return {}; }
     bool isModified() const override { return false; }
+    void guardLeaving(const std::function<bool()>& mayLeave) override { mMayLeave = mayLeave; }
     bool openProject(const QString&) override { return false; }
     bool saveProject() override { return false; }
     void requestFrames(int, int, const QStringList&) override {}
@@ -98,6 +99,7 @@ public:
     QVector<Layer> mLayers;
     QVector<Ability> mCannot;
     int mFrame = 1;
+    std::function<bool()> mMayLeave;
 };
 
 class FakeWorker : public Worker

@@ -1,0 +1,44 @@
+// Asks before another project takes the place of the open one.
+#pragma once
+
+#include "host/parts.h"
+
+#include <QMenu>
+
+#include <functional>
+
+namespace lampblack
+{
+
+/// Pencil2D asks by itself when it knows of changes. What it does not know of is guarded here: New, Open and
+/// recent files, by shortcut and by menu.
+class LeaveGuard : public QObject
+{
+    Q_OBJECT
+
+public:
+    LeaveGuard(const Parts& parts, QObject* parent);
+    ~LeaveGuard() override;
+
+    /// `mayLeave` may ask the artist; false keeps the project.
+    void set(std::function<bool()> mayLeave) { mMayLeave = std::move(mayLeave); }
+
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    struct StandIn
+    {
+        QPointer<QAction> original;
+        QPointer<QAction> action;
+    };
+    void guard(QMenu* menu);
+    QVector<QAction*> leavingActions(const QMenu& menu) const;
+    void replace(QMenu* menu);
+    void restore();
+
+    Parts mParts;
+    std::function<bool()> mMayLeave;
+    QVector<StandIn> mStandIns; ///< while a menu is open
+};
+
+} // namespace lampblack
