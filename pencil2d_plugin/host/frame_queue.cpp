@@ -12,7 +12,7 @@ namespace
 
 constexpr int BreathMs = 10;   ///< between chunks, for the artist's events
 constexpr int RetryMs = 60;    ///< while the artist is busy
-constexpr double ChunkMs = 60; ///< what a chunk may hold the main thread
+constexpr double ChunkMs = 40; ///< what a chunk may hold the main thread; one frame may take longer
 constexpr int MaxChunk = 8;
 constexpr int MaxFrame = 9999;
 constexpr int MaxSide = 4096; ///< the dialog's own limit
