@@ -49,7 +49,7 @@ def quiet_network(architecture: str, seed: int = 0) -> NormalPredictor:
     network = build_network(architecture)
     if isinstance(network, FigureNet):  # it starts as Lumo, which would hide its faults
         torch.nn.init.normal_(network.normals.weight, std=0.02)
-    px = (128, 128) if architecture == "figure-net" else (256, 640)
+    px = (96, 128) if architecture == "figure-net" else (256, 640)
     return NormalPredictor(network, NetworkCard(architecture, px))
 
 

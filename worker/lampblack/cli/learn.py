@@ -42,7 +42,7 @@ class Network(Enum):
 
 
 CARDS = {
-    Network.LAMPBLACK: NetworkCard("figure-net", (192, 192), roundness=1.2),
+    Network.LAMPBLACK: NetworkCard("figure-net", (192, 256), roundness=1.2),
     Network.PAPER: NetworkCard("dilated-unet", (256, 768)),
     Network.HUDON2018: NetworkCard("strided-unet", (256, 768)),
 }
@@ -83,7 +83,10 @@ def train(
     side: Annotated[
         int,
         typer.Option(
-            min=64, max=1024, help="Of the square whose area the canvas of a whole figure has."
+            min=64,
+            max=1024,
+            help="Of the square whose area the canvas of a whole figure has in training; "
+            "predictions look at one a third larger too.",
         ),
     ] = 192,
     begin_with: Annotated[
@@ -102,7 +105,7 @@ def train(
     """
     card = CARDS[network]
     if network is Network.LAMPBLACK:
-        card = replace(card, figure_px=(side, side))
+        card = replace(card, figure_px=(side, 4 * side // 3))
     with progress_bar() as bar:
         task = bar.add_task("Training", total=round(60 * minutes))
 

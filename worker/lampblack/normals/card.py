@@ -26,8 +26,9 @@ class NetworkCard:
     Attributes:
         architecture: a name in ``networks.ARCHITECTURES``.
         figure_px: (smallest, largest) long side of the figures it was trained on, pixels;
-            drawings outside are resized into that range. A network of whole figures takes the
-            second for the side of the square whose area its canvas has.
+            drawings outside are resized into that range. For a network of whole figures, the
+            sides of the squares whose area its canvases have: it learns on the first, and answers
+            with the mean of both.
         roundness: factor on the slopes that undoes the flatness of its means.
         training: how it came to be, for people.
         measured: figures it reached, for people.

@@ -83,6 +83,13 @@ def resize(image: Plane, size: tuple[int, ...]) -> Plane:
     return resized[0].permute(1, 2, 0).contiguous().numpy()
 
 
+def extend_outside(vectors: Plane, mask: NDArray[np.bool_]) -> Plane:
+    """Continue the nearest vector past the border, so that resizing mixes in no zeros."""
+    nearest = ndimage.distance_transform_edt(~mask, return_distances=False, return_indices=True)
+    result: Plane = vectors[tuple(nearest)]
+    return result
+
+
 def shape_maps(mask: NDArray[np.bool_]) -> Plane:
     """(8, h, w) float32 coarse maps that follow from the (H, W) canvas mask alone: Lumo's normal,
     the root of the distance to the silhouette, its gradient, and the place in the figure."""

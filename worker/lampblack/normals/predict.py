@@ -8,15 +8,14 @@ from functools import cached_property
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from scipy import ndimage
 from torch import nn
 
 from .. import __version__
 from ..cache import digest
 from .card import NetworkCard, load_network, shipped_weights
-from .figure import resize
+from .figure import extend_outside, resize
 from .networks import FigureNet
-from .predict_figure import figure_vectors
+from .predict_figure import mean_vectors
 from .predict_tiles import MAX_GRIDS, tile_vectors
 
 DEFAULT_GRIDS = 0
@@ -84,13 +83,13 @@ class NormalPredictor:
         box = _bounding_box(mask)
         figure_lines, figure_mask, inner = _past_the_canvas(lines[box], mask[box], box, mask.shape)
         if whole:
-            side = self.card.figure_px[1]
-            vectors, seen = figure_vectors(self._network, side, figure_lines, figure_mask)
+            sides = self.card.figure_px
+            vectors, seen = mean_vectors(self._network, sides, figure_lines, figure_mask)
         else:
             scale = self._scale(max(figure_mask.shape))
             small_lines, seen = _resize_figure(figure_lines, figure_mask, scale)
             vectors = tile_vectors(self._network, small_lines, seen, grids or _TILE_GRIDS, progress)
-        vectors = _extend_outside(_round_off(vectors, self.card.roundness), seen)
+        vectors = extend_outside(_round_off(vectors, self.card.roundness), seen)
         vectors = resize(vectors, figure_mask.shape)[inner]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
@@ -162,10 +161,3 @@ def _resize_figure(
     if not small_mask.any():
         small_mask = inside >= inside.max()
     return np.clip(ink, 0, 1).astype(np.float32), small_mask
-
-
-def _extend_outside(vectors: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Continue the nearest normal past the border, so that resizing mixes in no zeros."""
-    nearest = ndimage.distance_transform_edt(~mask, return_distances=False, return_indices=True)
-    result: NDArray[np.float32] = vectors[tuple(nearest)]
-    return result

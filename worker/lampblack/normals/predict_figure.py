@@ -7,7 +7,32 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
-from .figure import SIDEWAYS, Canvas, canvas_for, coarse_maps, lay, shape_maps
+from .figure import (
+    SIDEWAYS,
+    Canvas,
+    canvas_for,
+    coarse_maps,
+    extend_outside,
+    lay,
+    resize,
+    shape_maps,
+)
+
+
+def mean_vectors(
+    network: nn.Module,
+    sides: tuple[int, int],
+    lines: NDArray[np.float32],
+    mask: NDArray[np.bool_],
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """The mean of what the network says of a figure on a small and on a larger canvas: it errs
+    differently on each, and the larger shows more. As ``figure_vectors``, at the larger size."""
+    smaller, larger = sides
+    vectors, seen = figure_vectors(network, larger, lines, mask)
+    if smaller != larger:
+        rough = extend_outside(*figure_vectors(network, smaller, lines, mask))
+        vectors = (vectors + resize(rough, seen.shape)) / 2
+    return vectors, seen
 
 
 def figure_vectors(

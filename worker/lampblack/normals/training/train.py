@@ -138,7 +138,7 @@ def _course(
     data: Path, card: NetworkCard, options: TrainingOptions, seed: int
 ) -> FigureCourse | TileCourse:
     if card.architecture in FIGURES:
-        return FigureCourse(data, card.figure_px[1], seed, options.capacity)
+        return FigureCourse(data, card.figure_px[0], seed, options.capacity)
     return TileCourse(data, seed, options.capacity)
 
 
