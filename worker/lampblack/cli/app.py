@@ -20,6 +20,7 @@ from .render import render
 from .serve import serve
 from .stages import palette, scene
 from .surface import mesh, normals
+from .turntable import turntable
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -50,6 +51,7 @@ for command in (
     serve,
     normals,
     mesh,
+    turntable,
     export,
     palette,
     scene,

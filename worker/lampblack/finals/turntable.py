@@ -1,0 +1,177 @@
+"""A quick look at a drawing's relief from the sides: it swings, as clay and as it is lit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+from numpy.typing import NDArray
+from PIL import Image
+from scipy import ndimage
+
+from ..camera import scene_in_view
+from ..composite import composite
+from ..drawing import Drawing
+from ..normals.temporal.steady import Beside
+from ..pipeline import Pipeline
+from ..render import LightPasses, Passes, frame_request, frame_surface
+from ..scene import Material, Scene
+from ..surface import Relief
+
+FARTHEST = 40.0
+"""Degrees that the relief turns to either side."""
+CLAY = 0.66
+"""Its sRGB grey."""
+PAPER = 226, 224, 219
+_MARGIN = 1.08
+_FINER = 2
+"""Colours are looked up at so many times the size, so that lines and edges are smooth."""
+
+Floats = NDArray[np.float32]
+Picture = NDArray[np.uint8]
+
+
+def swing(count: int) -> list[float]:
+    """Angles in degrees of ``count`` pictures that loop, slower where the swing turns back."""
+    # Rounded, so that there and back are the same.
+    angles = (FARTHEST * math.sin(2 * math.pi * index / count) for index in range(count))
+    return [round(angle, 3) + 0.0 for angle in angles]
+
+
+def turn_table(
+    pipeline: Pipeline,
+    drawing: Drawing,
+    scene: Scene,
+    count: int,
+    size: int,
+    beside: Beside | None = None,
+) -> Iterator[Picture]:
+    """(h, w, 3) uint8 sRGB pictures of the relief, swinging: clay on the left, lit on the right.
+
+    Args:
+        scene: in the drawing's pixels; lights stand still, and its floor is left out.
+        count: pictures of the loop. size: longest side of each half, pixels.
+
+    Raises:
+        RenderError: the renderer failed.
+    """
+    scene = replace(scene, quality="medium", floor=None)
+    long_side = max(int(np.ptp(np.flatnonzero(drawing.mask.any(axis=k)))) + 1 for k in (0, 1))
+    stride = max(1, round(long_side / size))
+    relief = pipeline.relief(drawing, relief_scale=scene.relief_scale, stride=stride, beside=beside)
+    surface = frame_surface(drawing, relief, scene)
+    middle = _middle(relief)
+    turns = [_turned(relief.vertices, middle, angle) for angle in (-FARTHEST, 0, FARTHEST)]
+    width, height = (2 * _MARGIN * max(float(abs(t[:, k]).max()) for t in turns) for k in (0, 1))
+    scale = _FINER * size / max(width, height)
+    columns, rows = (_FINER * max(1, round(scale * n / _FINER)) for n in (width, height))
+    x, y = float(middle[0]), float(middle[1])
+    camera = scale, 0.0, columns / 2 - scale * x, 0.0, scale, rows / 2 - scale * y
+    placed = scene_in_view(scene, camera, (columns, rows))
+    made: dict[float, Picture] = {}
+    for angle in swing(count):
+        if angle not in made:
+            vertices = _turned(relief.vertices, middle, angle) * np.float32(scale)
+            vertices[:, :2] += np.array([columns, rows], np.float32) / 2
+            turned = Relief(vertices, relief.faces)
+            view = _seen(drawing, relief, turned, (rows, columns))
+            request = frame_request(view, replace(surface, relief=turned), placed)
+            made[angle] = _picture(view, pipeline.child.render(request), placed)
+        yield made[angle]
+
+
+def _middle(relief: Relief) -> Floats:
+    """(3,): of the box around the relief."""
+    low, high = relief.vertices.min(axis=0), relief.vertices.max(axis=0)
+    middle: Floats = ((low + high) / 2).astype(np.float32)
+    return middle
+
+
+def _turned(vertices: Floats, middle: Floats, degrees: float) -> Floats:
+    """``vertices`` about the upright axis through ``middle``, which becomes the origin; positive
+    brings the figure's left side forward."""
+    x, y, z = (vertices - middle).T
+    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    turned: Floats = np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=1, dtype=np.float32)
+    return turned
+
+
+def _seen(drawing: Drawing, relief: Relief, turned: Relief, size: tuple[int, int]) -> Drawing:
+    """The drawing on the turned relief, as if it had been drawn so: every pixel, (rows, columns),
+    shows what is drawn where the ray through it meets the surface."""
+    scene = EmbreeScene()
+    TriangleMesh(scene, turned.vertices[turned.faces])
+    rows, columns = np.mgrid[0 : size[0], 0 : size[1]].astype(np.float32)
+    top = np.full(rows.shape, turned.vertices[:, 2].max() + 1, np.float32)
+    origins = np.stack([columns + 0.5, rows + 0.5, top], axis=-1).reshape(-1, 3)
+    towards = np.tile(np.array([[0, 0, -1]], np.float32), (len(origins), 1))
+    hit = scene.run(origins, towards, query="INTERSECT", output=True)
+    inside = hit["primID"] >= 0
+    u, v = hit["u"][inside, None], hit["v"][inside, None]
+    corners = relief.vertices[relief.faces[hit["primID"][inside]], :2]
+    x, y = ((1 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]).T - 0.5
+    mask = inside.reshape(size)
+
+    def looked_up(layer: Floats) -> Floats:
+        planes = layer.reshape(*layer.shape[:2], -1)
+        seen = np.zeros((*size, planes.shape[2]), np.float32)
+        for index in range(planes.shape[2]):
+            plane = planes[..., index]
+            seen[mask, index] = ndimage.map_coordinates(plane, [y, x], order=1, mode="nearest")
+        return seen.reshape(*size, *layer.shape[2:])
+
+    ink, albedo = looked_up(drawing.ink), looked_up(drawing.albedo)
+    ink_colour = looked_up(drawing.ink_colour)
+    labels = np.full(size, -1, np.int16)
+    row = np.clip(np.rint(y).astype(np.intp), 0, drawing.mask.shape[0] - 1)
+    column = np.clip(np.rint(x).astype(np.intp), 0, drawing.mask.shape[1] - 1)
+    labels[mask] = drawing.labels[row, column]
+    drawn = albedo + ink[..., None] * (ink_colour - albedo)
+    pixels = np.dstack([drawn, mask.astype(np.float32)]) * 255
+    return replace(
+        drawing,
+        pixels=np.rint(pixels).astype(np.uint8),
+        mask=mask,
+        coverage=mask.astype(np.float32),
+        lines=ink,
+        ink=ink,
+        ink_colour=ink_colour,
+        albedo=albedo,
+        labels=labels,
+    )
+
+
+def _picture(view: Drawing, passes: Passes, scene: Scene) -> Picture:
+    """Clay beside the lit drawing, on paper."""
+    grey = np.full_like(view.albedo, CLAY) * view.mask[..., None]
+    bare = replace(
+        view,
+        pixels=np.dstack([np.rint(grey * 255), view.mask * 255]).astype(np.uint8),
+        ink=np.zeros_like(view.ink),
+        albedo=grey,
+    )
+    white = tuple(replace(light, colour="#ffffff") for light in scene.lights)
+    plain = replace(
+        scene,
+        lights=white,
+        ambient=replace(scene.ambient, colour="#ffffff"),
+        materials={},
+        default_material=Material(),
+    )
+    colourless = Passes(tuple(map(_colourless, passes.lights)), _colourless(passes.ambient))
+    halves = []
+    for lit in (composite(bare, colourless, plain), composite(view, passes, scene)):
+        paper = Image.new("RGBA", (lit.shape[1], lit.shape[0]), (*PAPER, 255))
+        paper.alpha_composite(Image.fromarray(lit))
+        halves.append(np.asarray(paper.convert("RGB").reduce(_FINER)))
+    return np.concatenate(halves, axis=1)
+
+
+def _colourless(light: LightPasses) -> LightPasses:
+    """Without the colours that bleed."""
+    grey = light.diffuse.mean(axis=2, keepdims=True)
+    return LightPasses(np.repeat(grey, 3, axis=2), light.glossy)
