@@ -32,7 +32,7 @@ from .options import (
 
 
 def export(
-    drawing: Annotated[Path, typer.Argument(metavar="INPUT", help="A PNG, a folder or a .pclx.")],
+    drawing: Annotated[Path, typer.Argument(metavar="INPUT", help="A PNG, folder, .pclx or .ora.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="A .blend or .glb file.")],
     frame: Annotated[
         int | None, typer.Option("--frame", min=0, help="Its number. Default: the first.")

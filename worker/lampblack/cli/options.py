@@ -37,7 +37,7 @@ class Solver(StrEnum):
 
 
 InputsArgument = Annotated[
-    list[str], typer.Argument(metavar="INPUT", help="PNG, folder, walk.%04d.png, or a .pclx.")
+    list[str], typer.Argument(metavar="INPUT", help="PNG, folder, walk.%04d.png, a .pclx or .ora.")
 ]
 SceneOption = Annotated[
     Path | None,

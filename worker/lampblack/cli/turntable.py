@@ -36,7 +36,7 @@ LOOP_SECONDS = 2.6
 
 
 def turntable(
-    drawing: Annotated[Path, typer.Argument(metavar="INPUT", help="A PNG, a folder or a .pclx.")],
+    drawing: Annotated[Path, typer.Argument(metavar="INPUT", help="A PNG, folder, .pclx or .ora.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="A .gif file, or a folder.")],
     frame: Annotated[
         int | None, typer.Option("--frame", min=0, help="Its number. Default: the first.")

@@ -1,4 +1,5 @@
-"""Pencil2D projects: read without Pencil2D, and without trusting what is in them."""
+"""Projects of Pencil2D, and OpenRaster drawings: read without the program that wrote them, and
+without trusting what is in them."""
 
 from .archive import SUFFIXES, is_project
 from .document import CameraKey, Key, Layer, Project

@@ -1,4 +1,4 @@
-"""The files inside a project: a zip (``.pclx``), or a folder beside its XML (``.pcl``).
+"""The files inside a project: a zip (``.pclx``, ``.ora``), or a folder beside its XML (``.pcl``).
 
 Nothing is unpacked. Names, sizes and counts come from a stranger: every one is bounded.
 """
@@ -12,7 +12,8 @@ from typing import Protocol
 
 from ..errors import ProjectError
 
-SUFFIXES = (".pclx", ".pcl")
+ORA = ".ora"
+SUFFIXES = (".pclx", ".pcl", ORA)
 MAX_XML_BYTES = 16 << 20
 MAX_FILE_BYTES = 128 << 20
 MAX_ENTRIES = 200_000
@@ -35,7 +36,7 @@ class Archive(Protocol):
 
 
 def is_project(path: str | Path) -> bool:
-    """Whether ``path`` is named like a Pencil2D project."""
+    """Whether ``path`` is named like a project, of Pencil2D or OpenRaster."""
     return Path(path).suffix.lower() in SUFFIXES
 
 
@@ -47,23 +48,27 @@ def open_archive(path: Path) -> Archive:
     """
     if not path.is_file():
         raise ProjectError(f"There is no project at {path}.", "Check the name and the folder.")
-    return _Zipped(path) if path.suffix.lower() == ".pclx" else _Folder(path)
+    suffix = path.suffix.lower()
+    if suffix == ".pcl":
+        return _Folder(path)
+    return _Zipped(path, "stack.xml" if suffix == ORA else "main.xml")
 
 
 class _Zipped:
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, description: str) -> None:
         self.path = path
+        self._description = description
         try:
             self._zip = zipfile.ZipFile(path)
         except (zipfile.BadZipFile, OSError, ValueError, UnicodeDecodeError) as error:
             raise ProjectError(
-                f"{path} is not a Pencil2D project.", "Save it again in Pencil2D.", str(error)
+                f"{path} is not a sound project.", "Save it again.", str(error)
             ) from error
         if len(self._zip.namelist()) > MAX_ENTRIES:
             raise ProjectError(f"{path} holds more than {MAX_ENTRIES} files.")
 
     def xml(self) -> bytes:
-        return self._read("main.xml", MAX_XML_BYTES)
+        return self._read(self._description, MAX_XML_BYTES)
 
     def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
         _check_name(name)
@@ -115,7 +120,7 @@ class _Folder:
 
 
 def _check_name(name: str) -> None:
-    """Keyframes lie in one folder: a name with a way in it is no work of Pencil2D."""
+    """Keyframes lie in one folder: a name with a way in it is not to be followed."""
     if not name or len(name) > 255 or name in (".", "..") or set(name) & set("/\\:\0"):
         raise _strays(name)
 

@@ -2,37 +2,35 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from xml.etree.ElementTree import Element, ParseError
+from xml.etree.ElementTree import Element
 
-from defusedxml import DefusedXmlException
-from defusedxml.ElementTree import fromstring
-
-from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import LampblackWarning, ProjectError
-from .archive import Archive, open_archive
+from .archive import ORA, Archive, open_archive
+from .attributes import check_size, number, sound_xml, whole
 from .document import Camera, CameraKey, Key, Kind, Layer, Project
+from .ora import parse_stack
 
 BITMAP, VECTOR, CAMERA = "1", "2", "5"
 KINDS: dict[str, Kind] = {BITMAP: "bitmap", VECTOR: "vector"}
 MAX_LAYERS = 1000
 MAX_FRAME = 999_999
 MAX_KEYS = 100_000
-MAX_PLACE = 1_000_000
 LONGEST = 100_000
 
 
 def read_project(path: str | Path) -> tuple[Project, Archive]:
-    """Read what a ``.pclx`` or ``.pcl`` describes; its pictures are read when they are wanted.
+    """Read what a ``.pclx``, ``.pcl`` or ``.ora`` describes; its pictures are read when they are
+    wanted.
 
     Raises:
         ProjectError: no project, damaged, or with a value that makes no sense.
     """
     archive = open_archive(Path(path))
-    return parse(archive.xml(), archive.path.name), archive
+    described = parse_stack if archive.path.suffix.lower() == ORA else parse
+    return described(archive.xml(), archive.path.name), archive
 
 
 def parse(xml: bytes, name: str) -> Project:
@@ -41,14 +39,7 @@ def parse(xml: bytes, name: str) -> Project:
     Raises:
         ProjectError: see ``read_project``.
     """
-    try:
-        root = fromstring(xml, forbid_entities=True)
-    except (ParseError, DefusedXmlException, ValueError, LookupError, RecursionError) as error:
-        raise ProjectError(
-            f"The description in {name} is not sound XML.",
-            "Save the project again in Pencil2D, or restore a backup.",
-            str(error),
-        ) from error
+    root = sound_xml(xml, name)
     described = [element for top in root.iter("object") for element in top.findall("layer")]
     if root.tag != "document" or not described:
         raise ProjectError(f"{name} describes no layers.", "Save it again in Pencil2D.")
@@ -64,7 +55,7 @@ def parse(xml: bytes, name: str) -> Project:
     length = max(length, _marked_end(root))
     if length > LONGEST:
         raise ProjectError(f"{name} is {length} frames long; {LONGEST} is the most.")
-    return Project(layers, cameras, length, _whole(root.find("projectdata/fps"), "value", 12))
+    return Project(layers, cameras, length, whole(root.find("projectdata/fps"), "value", 12))
 
 
 def _layer(element: Element, kind: Kind) -> Layer:
@@ -74,33 +65,29 @@ def _layer(element: Element, kind: Kind) -> Layer:
         key = Key(
             frame=_frame(image, name),
             file=image.get("src", ""),
-            left=_whole(image, "topLeftX", 0),
-            top=_whole(image, "topLeftY", 0),
-            opacity=min(1.0, max(0.0, _number(image, "opacity", 1.0))),
+            left=whole(image, "topLeftX", 0),
+            top=whole(image, "topLeftY", 0),
+            opacity=min(1.0, max(0.0, number(image, "opacity", 1.0))),
         )
         keys[key.frame] = key
     ordered = tuple(keys[frame] for frame in sorted(keys))
     return Layer(
-        _whole(element, "id", 0), name, kind, element.get("visibility", "1") != "0", ordered
+        whole(element, "id", 0), name, kind, element.get("visibility", "1") != "0", ordered
     )
 
 
 def _camera(element: Element) -> Camera:
     name = _name(element)
-    width, height = _whole(element, "width", 800), _whole(element, "height", 600)
-    if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= MAX_PIXELS):
-        raise ProjectError(
-            f"The camera {name!r} is {width} x {height} pixels.",
-            f"At most {MAX_SIDE} a side and {MAX_PIXELS // 1_000_000} megapixels are lit.",
-        )
+    width, height = whole(element, "width", 800), whole(element, "height", 600)
+    check_size(width, height, f"The camera {name!r}")
     keys: dict[int, CameraKey] = {}
     for moved in _bounded(element.findall("camera"), name):
         key = CameraKey(
             frame=_frame(moved, name),
-            dx=_number(moved, "dx", 0),
-            dy=_number(moved, "dy", 0),
-            turn=_number(moved, "r", 0),
-            scale=_number(moved, "s", 1),
+            dx=number(moved, "dx", 0),
+            dy=number(moved, "dy", 0),
+            turn=number(moved, "r", 0),
+            scale=number(moved, "s", 1),
         )
         if abs(key.scale) < 1e-3:
             raise ProjectError(f"The camera {name!r} shrinks frame {key.frame} to nothing.")
@@ -125,7 +112,7 @@ def _bounded(elements: list[Element], name: str) -> Iterator[Element]:
 
 
 def _frame(element: Element, name: str) -> int:
-    frame = _whole(element, "frame", 0)
+    frame = whole(element, "frame", 0)
     if not 1 <= frame <= MAX_FRAME:
         raise ProjectError(f"The layer {name!r} has a keyframe at {frame}.", "Frames count from 1.")
     return frame
@@ -136,31 +123,4 @@ def _marked_end(root: Element) -> int:
     ranged = root.find("projectdata/isRangedPlayback")
     if ranged is None or ranged.get("value") != "true":
         return 1
-    return max(1, _whole(root.find("projectdata/markOutFrame"), "value", 1))
-
-
-def _whole(element: Element | None, name: str, default: int) -> int:
-    value = _number(element, name, default)
-    if value != int(value):
-        raise _nonsense(name, str(value))
-    return int(value)
-
-
-def _number(element: Element | None, name: str, default: float) -> float:
-    text = None if element is None else element.get(name)
-    if text is None:
-        return default
-    try:
-        value = float(text)
-    except ValueError as error:
-        raise _nonsense(name, text) from error
-    if not math.isfinite(value) or abs(value) > MAX_PLACE:
-        raise _nonsense(name, text)
-    return value
-
-
-def _nonsense(name: str, text: str) -> ProjectError:
-    return ProjectError(
-        f"The project says {name} = {text[:40]!r}, which makes no sense.",
-        "Save the project again in Pencil2D, or restore a backup.",
-    )
+    return max(1, whole(root.find("projectdata/markOutFrame"), "value", 1))

@@ -1,0 +1,77 @@
+"""Values in a project's XML, bounded: they come from a stranger."""
+
+from __future__ import annotations
+
+import math
+from xml.etree.ElementTree import Element, ParseError
+
+from defusedxml import DefusedXmlException
+from defusedxml.ElementTree import fromstring
+
+from ..drawing.load import MAX_PIXELS, MAX_SIDE
+from ..errors import ProjectError
+
+MAX_PLACE = 1_000_000
+
+
+def sound_xml(xml: bytes, name: str) -> Element:
+    """The root of ``xml``; ``name`` is for the errors.
+
+    Raises:
+        ProjectError: malformed, or with entities.
+    """
+    try:
+        root: Element = fromstring(xml, forbid_entities=True)
+    except (ParseError, DefusedXmlException, ValueError, LookupError, RecursionError) as error:
+        raise ProjectError(
+            f"The description in {name} is not sound XML.",
+            "Save the project again, or restore a backup.",
+            str(error),
+        ) from error
+    return root
+
+
+def check_size(width: int, height: int, subject: str) -> None:
+    """Refuse pictures that nothing could be lit at."""
+    if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= MAX_PIXELS):
+        raise ProjectError(
+            f"{subject} is {width} x {height} pixels.",
+            f"At most {MAX_SIDE} a side and {MAX_PIXELS // 1_000_000} megapixels are lit.",
+        )
+
+
+def whole(element: Element | None, name: str, default: int) -> int:
+    """An attribute that is a whole number.
+
+    Raises:
+        ProjectError: see ``number``; or it is none.
+    """
+    value = number(element, name, default)
+    if value != int(value):
+        raise _nonsense(name, str(value))
+    return int(value)
+
+
+def number(element: Element | None, name: str, default: float) -> float:
+    """An attribute that is a number; ``default`` where it is not there.
+
+    Raises:
+        ProjectError: it is not finite, no number, or beyond all bounds.
+    """
+    text = None if element is None else element.get(name)
+    if text is None:
+        return default
+    try:
+        value = float(text)
+    except ValueError as error:
+        raise _nonsense(name, text) from error
+    if not math.isfinite(value) or abs(value) > MAX_PLACE:
+        raise _nonsense(name, text)
+    return value
+
+
+def _nonsense(name: str, text: str) -> ProjectError:
+    return ProjectError(
+        f"The project says {name} = {text[:40]!r}, which makes no sense.",
+        "Save the project again, or restore a backup.",
+    )
