@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..drawing.drawing import Drawing
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene
+from .borders import blends, swatch_albedos
 from .colour import hex_linear, linear, srgb
 from .resample import Band, enlarge
 from .shadow import shade_background
@@ -20,7 +21,8 @@ KNEE = 0.8
 BAND_PIXELS = 2_000_000
 ROUNDING = 1.5 / 255
 
-Source = tuple[NDArray[np.float32], LightPasses]
+Floats = NDArray[np.float32]
+Source = tuple[Floats, LightPasses]
 """The weight, (3,) scene-linear, and the passes of a light."""
 
 
@@ -143,20 +145,61 @@ def figure_light(
     """Diffuse light, glossy light, and colours left as drawn, of the fill in ``band``;
     scene-linear (H, W, 3), unbounded."""
     albedo = linear(drawing.albedo)
-    materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
-    materials.append(scene.default_material)  # label -1: past the edge
-    diffuse = np.array([m.diffuse for m in materials])[drawing.labels][..., None]
-    glossy = np.array([m.glossy for m in materials])[drawing.labels][..., None]
-    gloss = np.array([m.gloss for m in materials], np.float32)[drawing.labels][..., None]
-
+    materials = _Materials.of(drawing, scene)
     none = np.zeros_like(albedo)
-    lit, shine = none, none
-    if diffuse.any():
-        lit = np.where(diffuse, albedo * _gather(sources, "diffuse", band), none)
-    if glossy.any():
-        shine = gloss * _gather(sources, "glossy", band)
-        shine = np.where(glossy, np.where(diffuse, shine, albedo * shine), none)
-    return lit, shine, np.where(diffuse | glossy, none, albedo)
+    diffuse = _gather(sources, "diffuse", band) if materials.diffuse.any() else none
+    glossy = _gather(sources, "glossy", band) if materials.glossy.any() else none
+    other, share = blends(drawing.labels, albedo, drawing.palette)
+    blend = share > 0
+    theirs = np.minimum(
+        albedo[blend], share[blend, None] * swatch_albedos(drawing.palette)[other[blend]]
+    )
+    albedo[blend] -= theirs
+    found = materials.light(drawing.labels, albedo, 1 - share[..., None], diffuse, glossy)
+    second = materials.light(
+        other[blend], theirs, share[blend, None], diffuse[blend], glossy[blend]
+    )
+    for whole, part in zip(found, second, strict=True):
+        whole[blend] += part
+    return found
+
+
+@dataclass(frozen=True)
+class _Materials:
+    """Of each label, (n + 1, 1); the last is that of label -1, past the edge."""
+
+    diffuse: NDArray[np.bool_]
+    glossy: NDArray[np.bool_]
+    gloss: NDArray[np.float32]
+
+    @staticmethod
+    def of(drawing: Drawing, scene: Scene) -> _Materials:
+        used = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
+        used.append(scene.default_material)
+        return _Materials(
+            np.array([[m.diffuse] for m in used]),
+            np.array([[m.glossy] for m in used]),
+            np.array([[m.gloss] for m in used], np.float32),
+        )
+
+    def light(
+        self,
+        labels: NDArray[np.int16],
+        albedo: Floats,
+        share: Floats,
+        diffuse: Floats,
+        glossy: Floats,
+    ) -> tuple[Floats, Floats, Floats]:
+        """Diffuse light, glossy light, and colours left as drawn, (..., 3) each, of parts of
+        pixels: ``albedo`` is weighted by their ``share`` (..., 1)."""
+        has_diffuse, has_glossy = self.diffuse[labels], self.glossy[labels]
+        shine = self.gloss[labels] * glossy
+        none = np.float32(0)
+        return (
+            np.where(has_diffuse, albedo * diffuse, none),
+            np.where(has_glossy, np.where(has_diffuse, share * shine, albedo * shine), none),
+            np.where(has_diffuse | has_glossy, none, albedo),
+        )
 
 
 def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -13,6 +13,7 @@ from scipy import ndimage
 
 from ..drawing.palette import Palette
 from ..scene import Scene, default_scene
+from .borders import swatch_albedos
 from .colour import linear, srgb
 from .composite import KNEE, ROUNDING
 from .resample import Band, enlarge
@@ -75,8 +76,9 @@ def light_sheet(sheet: Sheet, crop: Box, light: Light, scene: Scene) -> NDArray[
     height, width = sheet.ink.shape
     lit = np.empty((height, width, 4), np.uint8)
     _light(
-        sheet.pixels, sheet.albedo, sheet.ink, sheet.ink_colour, sheet.coverage, sheet.labels,
-        kinds, gloss,
+        sheet.pixels, sheet.albedo, sheet.ink, sheet.ink_colour, sheet.coverage,
+        sheet.labels, sheet.others, sheet.shares,
+        swatch_albedos(sheet.palette), kinds, gloss,
         light.diffuse, light.glossy, _steps(crop, sheet.size, light.figure),
         _UNIT if light.floor is None else light.floor,
         _UNSHADED if light.floor is None else _unshaded(light.floor), light.floor is not None,
@@ -96,7 +98,8 @@ def warm_up() -> None:
     """Load the compiled loop, or compile it."""
     grey, bytes_ = np.zeros((1, 1, 3), np.uint8), np.zeros((1, 1), np.uint8)
     label = np.full((1, 1), -1, np.int16)
-    sheet = Sheet(np.zeros((1, 1, 4), np.uint8), grey, bytes_, grey, bytes_, label, Palette(()))
+    pixels, palette = np.zeros((1, 1, 4), np.uint8), Palette(())
+    sheet = Sheet(pixels, grey, bytes_, grey, bytes_, label, label, bytes_, palette)
     area = 0.0, 0.0, 1.0, 1.0
     light_sheet(sheet, area, Light(_DARK, _DARK, area, _UNIT), default_scene(1, 1))
 
@@ -135,14 +138,16 @@ def _encode(table: Any, value: Any) -> Any:
 
 @njit(cache=True, nogil=True)
 def _light(
-    pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any, labels: Any,
-    kinds: Any, gloss: Any,
+    pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any,
+    labels: Any, others: Any, shares: Any,
+    swatches: Any, kinds: Any, gloss: Any,
     diffuse: Any, glossy: Any, on_figure: Any,
     floor: Any, unshaded: Any, has_floor: bool, on_ground: Any,
     to_linear: Any, to_srgb: Any, lit: Any,
 ) -> None:  # fmt: skip
     byte, one, zero = np.float32(1 / 255), np.float32(1), np.float32(0)
     fill, shown = np.zeros(3, np.float32), np.zeros(3, np.float32)
+    unlit = np.zeros(3, np.float32)
     for row in range(ink.shape[0]):
         for column in range(ink.shape[1]):
             alpha = pixels[row, column, 3] * byte
@@ -162,25 +167,33 @@ def _light(
                 for c in range(4):
                     lit[row, column, c] = pixels[row, column, c]
                 continue
-            label = labels[row, column]
-            kind = kinds[label]
+            label, other = labels[row, column], others[row, column]
+            share = shares[row, column] * byte
             peak, drawn_peak = zero, zero
             u, v = on_figure[1] + column * on_figure[0], on_figure[3] + row * on_figure[2]
             for c in range(3):
                 base = to_linear[albedo[row, column, c]]
-                value = base
-                if cover > 0 and kind != 0:
-                    value = zero
-                    if kind & 1:
-                        value = base * _sample(diffuse, u, v, c)
-                    if kind & 2:
-                        shine = gloss[label] * _sample(glossy, u, v, c)
-                        value += shine if kind & 1 else base * shine
-                fill[c] = value
-                peak, drawn_peak = max(peak, value), max(drawn_peak, base)
+                drawn_peak = max(drawn_peak, base)
+                fill[c], unlit[c] = zero, base
+                if cover == 0 or (kinds[label] == 0 and kinds[other] == 0):
+                    continue
+                unlit[c] = zero
+                theirs = min(base, share * swatches[other, c])
+                for second in range(2 if share > 0 else 1):
+                    worn = other if second else label
+                    paint = theirs if second else base - theirs
+                    if kinds[worn] == 0:
+                        unlit[c] += paint
+                    if kinds[worn] & 1:
+                        fill[c] += paint * _sample(diffuse, u, v, c)
+                    if kinds[worn] & 2:
+                        shine = gloss[worn] * _sample(glossy, u, v, c)
+                        part = share if second else one - share
+                        fill[c] += part * shine if kinds[worn] & 1 else paint * shine
+                peak = max(peak, fill[c])
             knee = min(max(drawn_peak, np.float32(KNEE)), one)
             scale = one
-            if kind != 0 and peak > knee:
+            if peak > knee:
                 room = max(one - knee, np.float32(1e-4))
                 bent = knee - room * np.float32(np.expm1(-(peak - knee) / room))
                 scale = bent / max(peak, np.float32(KNEE))
@@ -191,7 +204,7 @@ def _light(
                 tone = ink_colour[row, column, c] * byte
                 drawn = albedo[row, column, c] * byte
                 drawn += line * (tone - drawn)
-                colour = _encode(to_srgb, fill[c] * scale)
+                colour = _encode(to_srgb, fill[c] * scale + unlit[c])
                 colour += line * (tone - colour)
                 paint = pixels[row, column, c] * byte + paper - cover * drawn
                 if shaded:

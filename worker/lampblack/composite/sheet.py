@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,15 +11,20 @@ from PIL import Image
 
 from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
+from .borders import blends
+from .colour import linear
 
 Bytes = NDArray[np.uint8]
 Box = tuple[float, float, float, float]
 """x, y, width, height in pixels of a drawing."""
 
+_FARTHEST = 12
+_LINEAR = linear(np.arange(256) / 255)
+
 
 @dataclass(frozen=True)
 class Sheet:
-    """The layers of a ``Drawing``, H x W, in 14 bytes a pixel.
+    """The layers of a ``Drawing``, H x W, in 17 bytes a pixel.
 
     Attributes:
         pixels: (H, W, 4) uint8 sRGB, premultiplied.
@@ -26,6 +32,8 @@ class Sheet:
         ink: (H, W) uint8. ink_colour: (H, W, 3) uint8 sRGB.
         coverage: (H, W) uint8.
         labels: (H, W) int16 index into ``palette.swatches``, -1 outside.
+        others, shares: (H, W) int16 and uint8, a second colour and its part of the pixel, see
+            ``borders.blends``.
         palette: the flat colours.
     """
 
@@ -35,6 +43,8 @@ class Sheet:
     ink_colour: Bytes
     coverage: Bytes
     labels: NDArray[np.int16]
+    others: NDArray[np.int16]
+    shares: Bytes
     palette: Palette
 
     @property
@@ -51,19 +61,28 @@ class Sheet:
         """The part in ``crop`` at ``size`` (width, height) pixels; past the drawing's edges it
         is empty. Averaged when that is smaller, interpolated when larger."""
         place = _place(crop, size, self.size)
+        albedo = _resized(self.albedo, place, size)
+        labels = _nearest(self.labels, place, size)
+        # Where one pixel becomes several, so does the blend in it.
+        larger = max(size[0] / crop[2], size[1] / crop[3])
+        reach = min(_FARTHEST, math.ceil(1.5 * larger)) if larger > 1 else 1
+        others, shares = _blends(labels, albedo, self.palette, reach)
         return Sheet(
             pixels=_resized(self.pixels, place, size),
-            albedo=_resized(self.albedo, place, size),
+            albedo=albedo,
             ink=_resized(self.ink, place, size),
             ink_colour=_ink_colour(self, place, size),
             coverage=_resized(self.coverage, place, size),
-            labels=_nearest(self.labels, place, size),
+            labels=labels,
+            others=others,
+            shares=shares,
             palette=self.palette,
         )
 
 
 def sheet_of(drawing: Drawing) -> Sheet:
     """The layers of ``drawing``, rounded."""
+    others, shares = _blends(drawing.labels, _rounded(drawing.albedo), drawing.palette, 1)
     return Sheet(
         pixels=premultiplied(drawing.pixels),
         albedo=_rounded(drawing.albedo),
@@ -71,6 +90,8 @@ def sheet_of(drawing: Drawing) -> Sheet:
         ink_colour=_rounded(drawing.ink_colour),
         coverage=_rounded(drawing.coverage),
         labels=drawing.labels,
+        others=others,
+        shares=shares,
         palette=drawing.palette,
     )
 
@@ -138,6 +159,13 @@ def _nearest(
         part = labels[np.ix_(rows.astype(np.intp), columns.astype(np.intp))]
         whole[top : top + height, left : left + width] = part
     return whole
+
+
+def _blends(
+    labels: NDArray[np.int16], albedo: Bytes, palette: Palette, reach: int
+) -> tuple[NDArray[np.int16], Bytes]:
+    others, shares = blends(labels, _LINEAR[albedo], palette, reach)
+    return others, _rounded(shares)
 
 
 def _ink_colour(sheet: Sheet, place: _Place | None, size: tuple[int, int]) -> Bytes:
