@@ -52,9 +52,9 @@ def parse_stack(xml: bytes, name: str) -> Project:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
     blended = {e.get("name", "") for e in stack.iter() if e.get("composite-op", PLAIN) != PLAIN}
     if blended:
+        named = ", ".join(map(repr, sorted(blended)[:8]))
         warnings.warn(
-            f"{name}: {', '.join(map(repr, sorted(blended)[:8]))} are blended in ways of their own; here "
-            "they lie over what is below them.",
+            f"{name}: {named} are blended in ways of their own; here they lie over what is below.",
             LampblackWarning,
             stacklevel=2,
         )
