@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from conftest import Run, draw_ball, files
 from lampblack.composite.colour import linear
 from lampblack.drawing import load_picture, save_picture, take_apart
-from lampblack.errors import LampblackError
+from lampblack.errors import LampblackError, RenderError
 from lampblack.finals.order import Order
 from lampblack.finals.shot import ShotFrame
 from lampblack.finals.targets import Targets
@@ -289,6 +289,28 @@ def test_keyed_lights_move_and_what_stands_still_is_not_traced_again(
     pictures = [load_picture(tmp_path / "lit" / f"walk.000{n}.png") for n in (1, 2, 3)]
     means = [float(p[..., :3].mean()) for p in pictures]
     assert means[0] < means[1] < means[2]
+
+
+def test_a_renderer_that_is_lost_once_costs_no_frame(
+    run: Run, tmp_path: Path, fake_child: FakeChild, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project, lost = walk(tmp_path, [1, 2, 1]), []
+    original = FakeChild.render
+
+    def render(self: FakeChild, request: object) -> Passes:
+        lost.append(request)
+        if len(lost) in (2, 4, 5):
+            raise RenderError("lost")
+        return original(self, request)
+
+    monkeypatch.setattr(FakeChild, "render", render)
+    assert run("render", project, "-o", tmp_path / "lit").code == 0
+    assert len(lost) == 3
+    # Lost twice: the frames of that drawing are told, the other is made.
+    again = run("render", project, "-o", tmp_path / "lit", "--again")
+    assert again.code == 1
+    assert "Failed: walk.0001.png, walk.0003.png" in again.err
+    assert len(lost) == 6
 
 
 def test_memory_does_not_grow_with_the_frames(

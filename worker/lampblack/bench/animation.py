@@ -30,8 +30,8 @@ class _TimedChild(RenderChild):
 
 def bench_animation(source: Path, scene: Path | None) -> dict[str, float]:
     """Wall seconds of a shot, nothing cached, and of each of its distinct drawings; the share of
-    them that was spent outside the renderer, and the same of processor time, which says more on a
-    busy machine; the peak memory of this process.
+    them in which the renderer had nothing to do; the share of processor time that was spent outside
+    it, which says more on a busy machine; the peak memory of all processes, at most.
 
     Args:
         source: a project or a folder. scene: its quality is ignored.
