@@ -243,9 +243,14 @@ def test_light_follows_strokes_undo_and_frames(window: Pencil2D) -> None:
     for _ in window.drag([canvas.screen(100 + 4 * i, 680) for i in range(30)]):
         pass
     light_up(window)
+
+    def lit_with_the_line() -> bool:
+        lit = window.value("lampblack.overlay", "showsPicture")
+        return bool(lit and window.value("lampblack", "settled") and ink_at(canvas, 160, 680))
+
+    # The stroke may be noticed only after the lamp was picked.
+    wait_until(lit_with_the_line, "the new line in the lit picture", 60)
     keep(window, "stroke")
-    assert window.value("lampblack.overlay", "showsPicture")
-    assert ink_at(canvas, 160, 680), "the new line is in the lit picture"
     window.trigger("actionUndo")
     wait_until(lambda: not ink_at(canvas, 160, 680), "the line's undoing")
     settled(window)
