@@ -121,8 +121,8 @@ public:
     // Project
     virtual QString projectPath() const = 0; ///< absolute; empty while untitled
     virtual bool isModified() const = 0;
-    /// `mayLeave` is called before New, Open or a recent file puts another project in this one's place, and may
-    /// ask the artist; false keeps the project. A closing window says so itself: QEvent::Close.
+    /// `mayLeave` is called before New, Open or a recent file puts another project in this one's place, and
+    /// may ask the artist; false keeps the project. A closing window says so itself: QEvent::Close.
     virtual void guardLeaving(const std::function<bool()>& mayLeave) = 0;
     virtual bool openProject(const QString& path) = 0;
     /// Save the project where it is; false if it was not written.

@@ -28,10 +28,10 @@ bool isSame(const Layer& a, const Layer& b)
 } // namespace
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
-    : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr), mLeaving(parts, nullptr),
-      mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
-      mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr), mOptions(parts, nullptr),
-      mCanvasSize(DefaultCanvas)
+    : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
+      mLeaving(parts, nullptr), mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr),
+      mDelivery(parts, &mIdleness, nullptr), mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr),
+      mOptions(parts, nullptr), mCanvasSize(DefaultCanvas)
 {
     connect(&mPalette, &ToolPalette::activated, this,
             [this](bool active)

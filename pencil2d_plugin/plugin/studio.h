@@ -29,7 +29,8 @@ class Studio : public QObject
     Q_PROPERTY(qulonglong sentRevision READ sentRevision)   ///< of the scene as last set
     Q_PROPERTY(qulonglong shownRevision READ shownRevision) ///< of the scene in the picture shown
     Q_PROPERTY(bool settled READ isSettled) ///< the picture shown is converged and of this scene and drawing
-    Q_PROPERTY(QVariantList lightPlaces READ lightPlaces) ///< [x, y] of each light as it is now, canvas pixels
+    Q_PROPERTY(
+        QVariantList lightPlaces READ lightPlaces) ///< [x, y] of each light as it is now, canvas pixels
 
 public:
     explicit Studio(Host& host, QObject* parent = nullptr);

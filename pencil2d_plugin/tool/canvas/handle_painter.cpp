@@ -127,7 +127,7 @@ void paintPath(QPainter& painter, const LightShape& light, bool selected)
     QPainterPath way;
     way.addPolygon(light.path);
     painter.save();
-    painter.setOpacity(selected ? 0.7 : 0.35);
+    painter.setOpacity(selected ? 0.55 : 0.3);
     strokeTwice(painter, way, Light, 1, true);
     painter.setPen(QPen(Dark, 1));
     for (int key = 0; key < light.path.size(); ++key)

@@ -68,7 +68,7 @@ public:
     static constexpr double RayRadius = 14;
     static constexpr double GripRadius = 4.5;
     static constexpr double LeastRing = 18;
-    static constexpr double KeyRadius = 3; ///< of the dots on a light's path
+    static constexpr double KeyRadius = 3.5; ///< of the dots on a light's path
 
     Handles() = default;
     /// As they are at `frame`.
