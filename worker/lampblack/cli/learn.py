@@ -42,7 +42,7 @@ class Network(Enum):
 
 
 CARDS = {
-    Network.LAMPBLACK: NetworkCard("figure-net", (192, 256), roundness=1.2),
+    Network.LAMPBLACK: NetworkCard("figure-net", (192, 384), roundness=1.2),
     Network.PAPER: NetworkCard("dilated-unet", (256, 768)),
     Network.HUDON2018: NetworkCard("strided-unet", (256, 768)),
 }
@@ -86,7 +86,7 @@ def train(
             min=64,
             max=1024,
             help="Of the square whose area the canvas of a whole figure has in training; "
-            "predictions look at one a third larger too.",
+            "predictions look at one of twice the side too.",
         ),
     ] = 192,
     begin_with: Annotated[
@@ -105,7 +105,7 @@ def train(
     """
     card = CARDS[network]
     if network is Network.LAMPBLACK:
-        card = replace(card, figure_px=(side, 4 * side // 3))
+        card = replace(card, figure_px=(side, 2 * side))
     with progress_bar() as bar:
         task = bar.add_task("Training", total=round(60 * minutes))
 

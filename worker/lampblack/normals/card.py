@@ -36,10 +36,10 @@ class NetworkCard:
 
     architecture: str = "figure-net"
     figure_px: tuple[Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]] = (
-        320,
-        320,
+        192,
+        384,
     )
-    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.5
+    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.2
     training: dict[str, Any] | None = None
     measured: dict[str, Any] | None = None
 

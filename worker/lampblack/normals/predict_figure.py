@@ -25,8 +25,9 @@ def mean_vectors(
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """The mean of what the network says of a figure on a small and on a larger canvas: it errs
-    differently on each, and the larger shows more. As ``figure_vectors``, at the larger size."""
+    """The mean of what the network says of a figure on a small and on a larger canvas: on the
+    small one it sees the whole, on the larger one the parts, and it errs differently on each.
+    As ``figure_vectors``, at the larger size."""
     smaller, larger = sides
     vectors, seen = figure_vectors(network, larger, lines, mask)
     if smaller != larger:
