@@ -103,8 +103,7 @@ def test_a_keyed_light_moves_in_the_window_as_on_the_command_line(
     assert [key.frame for key in scene.lights[0].keys] == [1, 9]
     light = scene_at(scene, 5).lights[0]
     assert (light.x, light.y) == pytest.approx(between, abs=1e-6)
-    # What is looked at is not steadied between frames. The two still differ by 0.03 or so here, a tenth
-    # of what the light's way makes.
+    # What is looked at is not steadied between frames; the two still differ by up to 0.03 here.
     frames = ["--frames", "1,4,5,9", "--no-steady"]
     assert run("render", project, "-o", tmp_path / "lit", *frames).code == 0
     for frame, sides in seen.items():
