@@ -150,6 +150,7 @@ class Pencil2D:
     def close(self) -> None:
         """End it without a question, if it is still there, and see that it had not died."""
         died = self.process.poll()
+        self._lines.close()
         self._probe.close()
         if died is None:
             self.process.send_signal(signal.SIGKILL)
