@@ -70,8 +70,8 @@ def lit_from(x: float) -> Scene:
 
 
 def children_of(pid: int) -> dict[int, int]:
-    """Renderers of a worker, by pid, and how nice they are."""
-    found = {}
+    """Renderers of a worker, by pid, and how much nicer than it they are."""
+    found, own = {}, os.getpriority(os.PRIO_PROCESS, pid)
     for entry in Path("/proc").glob("[0-9]*/stat"):
         try:
             fields = entry.read_text().rpartition(")")[2].split()
@@ -79,7 +79,7 @@ def children_of(pid: int) -> dict[int, int]:
         except OSError:
             continue
         if fields[1] == str(pid) and b"lampblack.render.child" in command:
-            found[int(entry.parent.name)] = int(fields[16])
+            found[int(entry.parent.name)] = int(fields[16]) - own
     return found
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -22,4 +23,6 @@ def serve(
     """
     from ..service.serve import serve_forever
 
+    # The drawing program's own thread goes first where both want a processor.
+    os.nice(5)
     serve_forever(connection, parent_pid)
