@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 import torch
 import trimesh
@@ -21,7 +25,7 @@ from lampblack.normals.networks import build_network
 from lampblack.normals.training.checkpoint import Progress
 from lampblack.normals.training.curve import SIZE
 from lampblack.normals.training.figure_loss import angles
-from lampblack.normals.training.figures import figure_of, sample
+from lampblack.normals.training.figures import FigureCourse, figure_of, sample
 from lampblack.normals.training.normalisation import retake_statistics
 from lampblack.normals.training.tiles import view_of
 from lampblack.normals.training.train import TrainingOptions, train
@@ -85,7 +89,7 @@ def test_tiles_mirror_the_normals_with_the_drawing(data: Path) -> None:
 
 
 def test_whole_figures_mirror_every_map_with_the_drawing(data: Path) -> None:
-    figure = figure_of(one_triple(data), np.random.default_rng(0), 96)
+    figure = figure_of(one_triple(data), np.random.default_rng(0), [96])
     for seed in range(6):
         fine, coarse, truth, auxiliary = sample(figure, np.random.default_rng(seed))
         inside = fine[1] > 0
@@ -113,6 +117,41 @@ def test_angles_are_angles() -> None:
     assert angles(a, a).max() < 2e-3
 
 
+def test_canvases_of_every_side_take_turns_and_large_ones_make_smaller_batches(data: Path) -> None:
+    seen = {}
+    with FigureCourse(data, (64, 384), seed=0, capacity=8) as course:
+        for _ in range(40):
+            fine = course._batch(9).fine
+            seen[fine.shape[2] * fine.shape[3]] = len(fine)
+    areas = sorted(seen)
+    assert areas[-1] > 20 * areas[0]
+    assert seen[areas[0]] == 9
+    assert seen[areas[-1]] == 4
+
+
+def test_the_loader_of_a_killed_run_ends(data: Path) -> None:
+    program = (
+        "import sys, time; from pathlib import Path\n"
+        "from lampblack.normals.training.figures import FigureCourse\n"
+        "if __name__ == '__main__':\n"
+        "    with FigureCourse(Path(sys.argv[1]), (64,), 0, 4) as course:\n"
+        "        course._batch(1)\n"
+        "        print(course._stream._loader.pid, flush=True)\n"
+        "        time.sleep(60)\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", program, str(data)], stdout=subprocess.PIPE, text=True
+    ) as run:
+        assert run.stdout is not None
+        loader = int(run.stdout.readline())
+        run.kill()
+    for _ in range(200):
+        if not psutil.pid_exists(loader) or psutil.Process(loader).status() == "zombie":
+            return
+        time.sleep(0.1)
+    pytest.fail("The loader outlived its run.")
+
+
 class Enough(Exception):
     """Ends a run from its report."""
 
@@ -127,9 +166,10 @@ def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> No
             raise Enough
 
     card = NetworkCard("figure-net", (64, 96))
+    options = TrainingOptions(batch=2, sides=(64, 96), capacity=4)
     for _ in range(2):
         with pytest.raises(Enough):
-            train(data, run, card, TrainingOptions(batch=2, capacity=4), stop_every_second)
+            train(data, run, card, options, stop_every_second)
     assert steps == [1, 2, 3, 4]
     _, kept = load_network(run / "network.safetensors")
     assert kept.training is not None
@@ -150,7 +190,7 @@ def test_the_course_of_a_run_can_be_looked_at(
         if progress.step % 2 == 0:
             raise Enough
 
-    options = TrainingOptions(batch=1, capacity=4)
+    options = TrainingOptions(batch=1, sides=(64,), capacity=4)
     for _ in range(2):
         with pytest.raises(Enough):
             train(data, run, card, options, stop)
@@ -173,7 +213,7 @@ def test_training_begins_with_given_weights(data: Path, tmp_path: Path) -> None:
     def stop(progress: Progress) -> None:
         raise Enough
 
-    options = TrainingOptions(batch=1, capacity=1, learning_rate=0.0)
+    options = TrainingOptions(batch=1, sides=(64,), capacity=1, learning_rate=0.0)
     with pytest.raises(Enough):
         train(data, tmp_path / "run", card, options, stop, given)
     begun, _ = load_network(tmp_path / "run" / "network.safetensors")

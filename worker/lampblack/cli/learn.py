@@ -80,15 +80,17 @@ def train(
     threads: Annotated[
         int, typer.Option(min=1, max=256, help="Of the trainer; one more process loads data.")
     ] = 1,
-    side: Annotated[
-        int,
+    sides: Annotated[
+        list[int] | None,
         typer.Option(
+            "--side",
             min=64,
             max=1024,
-            help="Of the square whose area the canvas of a whole figure has in training; "
-            "predictions look at one of twice the side too.",
+            metavar="PIXELS",
+            help="Of the square whose area the canvas of a whole figure has; give it several "
+            "times, and figures are seen at all of these sizes.",
         ),
-    ] = 192,
+    ] = None,
     begin_with: Annotated[
         Path | None,
         typer.Option("--from", metavar="SAFETENSORS", help="Weights that a new run begins with."),
@@ -103,9 +105,9 @@ def train(
 
     Example: lampblack train dataset/ -o runs/first --minutes 90
     """
-    card = CARDS[network]
-    if network is Network.LAMPBLACK:
-        card = replace(card, figure_px=(side, 2 * side))
+    options = TrainingOptions(minutes=minutes, threads=threads, batch=batch, seed=seed)
+    if sides:
+        options = replace(options, sides=tuple(sides))
     with progress_bar() as bar:
         task = bar.add_task("Training", total=round(60 * minutes))
 
@@ -113,8 +115,7 @@ def train(
             told = f"step {progress.step}, {progress.angle:.1f} degrees"
             bar.update(task, completed=round(progress.seconds), description=told)
 
-        options = TrainingOptions(minutes=minutes, threads=threads, batch=batch, seed=seed)
-        weights = run_training(data, output, card, options, report, begin_with)
+        weights = run_training(data, output, CARDS[network], options, report, begin_with)
     console.print(f"Weights and card: {weights}", markup=False)
 
 

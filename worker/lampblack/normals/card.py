@@ -27,8 +27,7 @@ class NetworkCard:
         architecture: a name in ``networks.ARCHITECTURES``.
         figure_px: (smallest, largest) long side of the figures it was trained on, pixels;
             drawings outside are resized into that range. For a network of whole figures, the
-            sides of the squares whose area its canvases have: it learns on the first, and answers
-            with the mean of both.
+            sides of the squares whose area its canvases have: it answers with the mean of both.
         roundness: factor on the slopes that undoes the flatness of its means.
         training: how it came to be, for people.
         measured: figures it reached, for people.

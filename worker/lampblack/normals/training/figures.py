@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,11 +14,14 @@ from numpy.typing import NDArray
 from torch import nn
 
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
-from ..figure import COARSE, SIDEWAYS, canvas_for, coarse_maps, lay, shape_maps
+from ..figure import COARSE, SIDEWAYS, canvas_for, coarse_maps, lay, resize, shape_maps
 from .example import Example, looked_at
 from .figure_loss import Batch, Loss, figure_loss
 from .stream import Stream
 from .stretch import random_stretch, stretched
+
+
+FULL_BATCH_SIDE, FEWEST_FIGURES = 256, 4
 
 
 @dataclass(frozen=True)
@@ -33,8 +37,9 @@ class Figure:
     auxiliary: NDArray[np.float16]
 
 
-def figure_of(triple: Triple, rng: np.random.Generator, side: int) -> Figure:
-    """Lay the triple's figure on its canvas, each time of another size and stretched."""
+def figure_of(triple: Triple, rng: np.random.Generator, sides: Sequence[int]) -> Figure:
+    """Lay the triple's figure, each time stretched, on a canvas of one of ``sides``."""
+    side = int(rng.choice(sides))
     box = _box(triple.mask)
     inside = triple.mask[box].astype(np.float32)
     planes = [triple.normals[box].astype(np.float32) / 127 * inside[..., None]]
@@ -42,7 +47,11 @@ def figure_of(triple: Triple, rng: np.random.Generator, side: int) -> Figure:
     depth = triple.depth[box] / np.float32(DEPTH_STEPS * max(inside.shape)) * inside
     planes += [depth[..., None], inside[..., None]]
     planes += [(triple.occlusion[box] == near)[..., None] for near in (IN_FRONT, BEHIND)]
-    picture = stretched(np.concatenate(planes, axis=2, dtype=np.float32), random_stretch(rng))
+    picture = np.concatenate(planes, axis=2, dtype=np.float32)
+    # Stretching costs by the pixel, and most of a triple's are more than the canvas holds.
+    smaller = min(1.0, 1.5 * side / inside.size**0.5)
+    picture = resize(picture, tuple(max(1, round(n * smaller)) for n in inside.shape))
+    picture = stretched(picture, random_stretch(rng))
     picture = picture[_box(picture[..., -3] > 0.5)]
     canvas = canvas_for(picture.shape[:2], side, float(rng.uniform(0.85, 1)))
     laid = lay(picture, canvas)
@@ -75,12 +84,13 @@ def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
 class FigureCourse:
     """Batches of whole figures, all of one canvas shape, half of them mirrored, and their loss.
 
-    Use as a context manager.
+    ``sides`` are those of the squares whose areas the canvases have: a network that knows
+    several sees a figure's whole and its parts. Use as a context manager.
     """
 
-    def __init__(self, data: Path, side: int, seed: int, capacity: int = 2000) -> None:
+    def __init__(self, data: Path, sides: Sequence[int], seed: int, capacity: int = 2000) -> None:
         self._rng = np.random.default_rng(seed)
-        prepare = partial(figure_of, side=side)
+        prepare = partial(figure_of, sides=sides)
         self._stream = Stream(data, prepare, _canvas_shape, seed=seed, capacity=capacity)
 
     def __enter__(self) -> Self:
@@ -105,7 +115,11 @@ class FigureCourse:
         return looked_at(batch.fine[:, 0], batch.fine[:, 1], batch.normals, vectors)
 
     def _batch(self, size: int) -> Batch:
-        return stack([sample(f, self._rng) for f in self._stream.take(size, self._rng)])
+        figures = self._stream.take(size, self._rng)
+        rows, columns = figures[0].mask.shape
+        # Large canvases cost their area: fewer of them make a batch.
+        fewer = max(FEWEST_FIGURES, round(size * FULL_BATCH_SIDE**2 / (rows * columns)))
+        return stack([sample(f, self._rng) for f in figures[:fewer]])
 
 
 def _canvas_shape(figure: Figure) -> tuple[int, ...]:

@@ -119,6 +119,7 @@ def entries_by_source(data: Path) -> dict[str, list[Path]]:
 def _load(fresh: Queue[Example], data: Path, prepare: Prepare[Example], seed: int) -> None:
     """The loader process: it dies with its parent."""
     torch.set_num_threads(1)
+    fresh.cancel_join_thread()  # or it would wait for a dead parent to take what is left
     parent = os.getppid()
     rng = np.random.default_rng([seed, 1])
     scanned = -float("inf")

@@ -1,6 +1,8 @@
-"""One view, many shapes: turned, stretched and sheared in the picture plane."""
+"""One view, many shapes: turned, stretched, sheared and bent in the picture plane."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -8,50 +10,112 @@ from numpy.typing import NDArray
 from torch import nn
 
 Plane = NDArray[np.float32]
+Vectors = NDArray[np.float64]
 
-TURN, STRETCH = 0.17, 0.12
-"""Standard deviations: of the turn in radians, of the logarithms of the stretch."""
+TURN, STRETCH, BEND = 0.17, 0.12, 0.1
+"""Standard deviations: of the turn in radians, of the logarithms of the stretch, and of the
+slope of each wave."""
+
+WAVES = 3
+WAVE_NUMBERS = (1.2, 4.5)
+"""Radians per half of the figure's longer side, shortest and longest."""
+
+_STEEPEST = 0.25
 
 
-def random_stretch(rng: np.random.Generator) -> NDArray[np.float64]:
-    """A (2, 2) linear map of the picture plane, x right, y up, that keeps areas."""
+@dataclass(frozen=True)
+class Stretch:
+    """A map of the picture plane, x right, y up, in halves of the figure's longer side.
+
+    Attributes:
+        matrix: (2, 2) its linear part, from the figure to the stretched figure.
+        waves: (K, 2) wave vectors, in the plane of the stretched figure.
+        heights: (K,) how far each wave moves what is seen, across its direction.
+        phases: (K,) radians.
+    """
+
+    matrix: Vectors
+    waves: Vectors
+    heights: Vectors
+    phases: Vectors
+
+    def source(self, places: Plane) -> tuple[Plane, Plane]:
+        """Where in the figure (H, W, 2) places of the stretched figure come from, and the
+        (H, W, 2, 2) derivatives of that."""
+        back = np.linalg.inv(self.matrix)
+        across = self._across()
+        slopes = np.einsum("kd,ke->kde", across, self.waves).reshape(-1, 4)
+        waves, phases, across, slopes, turned = (
+            part.astype(np.float32) for part in (self.waves, self.phases, across, slopes, back)
+        )
+        angle = places @ waves.T + phases
+        came = places @ turned.T + np.sin(angle) @ across
+        derivatives = np.cos(angle) @ slopes + turned.reshape(4)
+        return came, derivatives.reshape(*places.shape, 2)
+
+    def farthest(self) -> float:
+        """A bound of how far the waves move anything in the stretched figure."""
+        return float(1.5 * np.linalg.norm(self.matrix, 2) * np.abs(self.heights).sum())
+
+    def _across(self) -> Vectors:
+        length = np.maximum(np.linalg.norm(self.waves, axis=1), 1e-9)
+        across: Vectors = (self.waves[:, ::-1] * [-1, 1]) * (self.heights / length)[:, None]
+        return across
+
+
+def linear_stretch(matrix: Vectors) -> Stretch:
+    """A stretch without waves."""
+    return Stretch(matrix, np.zeros((0, 2)), np.zeros(0), np.zeros(0))
+
+
+def random_stretch(rng: np.random.Generator) -> Stretch:
+    """A map whose linear part keeps areas; its waves shear, so that each keeps them too."""
     turn = rng.normal(0, TURN)
     shear, stretch = rng.normal(0, STRETCH, 2)
     strength = max(float(np.hypot(shear, stretch)), 1e-9)
     # exp of a traceless symmetric matrix: stretch along one axis, shrink across it.
     pull = np.array([[stretch, shear], [shear, -stretch]]) / strength
     spin = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
-    matrix: NDArray[np.float64] = spin @ (np.cosh(strength) * np.eye(2) + np.sinh(strength) * pull)
-    return matrix
+    matrix: Vectors = spin @ (np.cosh(strength) * np.eye(2) + np.sinh(strength) * pull)
+    number = rng.uniform(*WAVE_NUMBERS, WAVES)
+    towards, phases = rng.uniform(0, 2 * np.pi, (2, WAVES))
+    slopes = np.clip(rng.normal(0, BEND, WAVES), -_STEEPEST, _STEEPEST)
+    waves = number[:, None] * np.stack([np.cos(towards), np.sin(towards)], axis=1)
+    return Stretch(matrix, waves, slopes / number, phases)
 
 
-def stretched(planes: Plane, matrix: NDArray[np.float64]) -> Plane:
-    """A picture under a linear map of its plane, with the normals of the stretched body.
+def stretched(planes: Plane, stretch: Stretch) -> Plane:
+    """A picture under a map of its plane, with the normals of the stretched body.
 
-    Without perspective a view of a body that is stretched in the picture plane is the stretched
-    view, and its normals follow by the inverse transpose: one view makes many figures, all exact.
+    Without perspective a view of a body that is moved within planes parallel to the picture is
+    the moved view, and its normals follow by the inverse transpose: one view makes many figures,
+    all exact.
 
     Args:
         planes: (H, W, C) float32; the first three are normals (x right, y up, z to the viewer)
             times coverage, the others are carried along.
-        matrix: (2, 2), x right, y up.
 
     Returns:
         (H', W', C), large enough for the whole picture, 0 around it; normals of the length they
         had.
     """
     rows, columns = planes.shape[:2]
-    width, height = np.ceil(np.abs(matrix) @ [columns, rows]).astype(int)
-    # Where each new pixel comes from, in half sizes about the middle; pictures count y downwards.
-    back = np.linalg.inv(matrix * [[1, -1], [-1, 1]])
-    back *= np.array([width, height]) / np.array([columns, rows])[:, None]
-    theta = torch.from_numpy(np.hstack([back, np.zeros((2, 1))]).astype(np.float32))[None]
-    grid = nn.functional.affine_grid(theta, [1, 1, int(height), int(width)], align_corners=False)
+    half = max(rows, columns) / 2
+    size = np.abs(stretch.matrix) @ [columns, rows] + 2 * half * stretch.farthest()
+    width, height = np.ceil(size).astype(int)
+    rows_down, columns_right = np.mgrid[0:height, 0:width] + 0.5
+    places = np.stack([columns_right - width / 2, height / 2 - rows_down], axis=2) / half
+    came, derivatives = stretch.source(places.astype(np.float32))
+    # Pictures count y downwards, in halves of each side.
+    grid = came * np.array([2 * half / columns, -2 * half / rows], np.float32)
     source = torch.from_numpy(planes).permute(2, 0, 1)[None]
-    moved = nn.functional.grid_sample(source, grid, mode="bilinear", align_corners=False)
+    moved = nn.functional.grid_sample(
+        source, torch.from_numpy(grid)[None], mode="bilinear", align_corners=False
+    )
     result: Plane = moved[0].permute(1, 2, 0).contiguous().numpy()
     normals = result[..., :3]
     length = np.linalg.norm(normals, axis=2, keepdims=True)
-    normals[..., :2] = normals[..., :2] @ np.linalg.inv(matrix).astype(np.float32)
+    right, up = normals[..., :1].copy(), normals[..., 1:2]
+    normals[..., :2] = right * derivatives[..., 0, :] + up * derivatives[..., 1, :]
     normals *= length / np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-6)
     return result

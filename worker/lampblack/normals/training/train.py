@@ -38,11 +38,13 @@ class TrainingOptions:
     """``minutes`` of processor time of each of ``threads`` are the whole budget, over all runs:
     a busy or suspended machine does not shorten it. Over the last ``decay`` of it the learning
     rate falls to 0. The weights written are an average with a memory of ``1 / (1 - ema)`` steps.
-    ``capacity`` examples are kept in memory."""
+    ``sides`` are those of the canvases of whole figures. ``capacity`` examples are kept in
+    memory."""
 
     minutes: float = 60.0
     threads: int = 1
     batch: int = 12
+    sides: tuple[int, ...] = (160, 192, 256, 352)
     learning_rate: float = 1e-3
     warm_up: int = 200
     decay: float = 0.4
@@ -84,6 +86,8 @@ def train(
         network.parameters(), lr=0.0, weight_decay=0.02, betas=(0.9, 0.98), fused=True
     )
     told = {"batch": options.batch, "seed": options.seed, "threads": options.threads}
+    if card.architecture in FIGURES:
+        told["canvas_sides"] = options.sides
     checkpoint = Checkpoint(output, network, average, optimiser, replace(card, training=told))
     progress = checkpoint.load()
     with _course(data, card, options, options.seed * 1_000_003 + progress.step) as course:
@@ -138,7 +142,7 @@ def _course(
     data: Path, card: NetworkCard, options: TrainingOptions, seed: int
 ) -> FigureCourse | TileCourse:
     if card.architecture in FIGURES:
-        return FigureCourse(data, card.figure_px[0], seed, options.capacity)
+        return FigureCourse(data, options.sides, seed, options.capacity)
     return TileCourse(data, seed, options.capacity)
 
 
