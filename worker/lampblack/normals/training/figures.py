@@ -20,7 +20,6 @@ from .figure_loss import Batch, Loss, figure_loss
 from .stream import Stream
 from .stretch import random_stretch, stretched
 
-
 FULL_BATCH_SIDE, FEWEST_FIGURES = 256, 4
 
 

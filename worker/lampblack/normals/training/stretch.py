@@ -45,12 +45,9 @@ class Stretch:
         back = np.linalg.inv(self.matrix)
         across = self._across()
         slopes = np.einsum("kd,ke->kde", across, self.waves).reshape(-1, 4)
-        waves, phases, across, slopes, turned = (
-            part.astype(np.float32) for part in (self.waves, self.phases, across, slopes, back)
-        )
-        angle = places @ waves.T + phases
-        came = places @ turned.T + np.sin(angle) @ across
-        derivatives = np.cos(angle) @ slopes + turned.reshape(4)
+        angle = places @ self.waves.T.astype(np.float32) + self.phases.astype(np.float32)
+        came = places @ back.T.astype(np.float32) + np.sin(angle) @ across.astype(np.float32)
+        derivatives = np.cos(angle) @ slopes.astype(np.float32) + back.ravel().astype(np.float32)
         return came, derivatives.reshape(*places.shape, 2)
 
     def farthest(self) -> float:

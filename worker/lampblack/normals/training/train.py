@@ -85,7 +85,11 @@ def train(
     optimiser = torch.optim.AdamW(
         network.parameters(), lr=0.0, weight_decay=0.02, betas=(0.9, 0.98), fused=True
     )
-    told = {"batch": options.batch, "seed": options.seed, "threads": options.threads}
+    told: dict[str, object] = {
+        "batch": options.batch,
+        "seed": options.seed,
+        "threads": options.threads,
+    }
     if card.architecture in FIGURES:
         told["canvas_sides"] = options.sides
     checkpoint = Checkpoint(output, network, average, optimiser, replace(card, training=told))
