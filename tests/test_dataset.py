@@ -14,6 +14,8 @@ from scipy import ndimage
 
 from conftest import Run
 from lampblack.errors import LampblackError
+from lampblack.normals.dataset.anatomy.clay import Clay
+from lampblack.normals.dataset.anatomy.turned import turned
 from lampblack.normals.dataset.build import DatasetOptions, build_dataset, entries
 from lampblack.normals.dataset.creatures import creature
 from lampblack.normals.dataset.deform import deformed
@@ -58,17 +60,75 @@ def test_a_data_set_is_the_same_however_often_it_is_interrupted(
         assert np.array_equal(first.normals, second.normals)
 
 
-def test_made_up_creatures_are_exact_and_symmetrical(models: Path, tmp_path: Path) -> None:
+def test_made_up_creatures_are_the_same_every_time(models: Path, tmp_path: Path) -> None:
     options = replace(OPTIONS, creatures=3)
     assert build_dataset(models, tmp_path / "data", None, options) == 7
     assert len(list((tmp_path / "data" / "creatures").glob("*.npz"))) == 3
-    model = creature("a", np.random.default_rng(5))
-    corners = model.vertices[model.faces]
-    flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    alike = np.einsum("fc,fkc->fk", flat, model.corner_normals)
-    assert alike.min() > 0  # no ellipsoid is inside out
-    view = trace(model, view_rotation(0, 0), 100)
-    assert (view.mask != view.mask[:, ::-1]).mean() < 0.25
+    first, again = (creature("a", np.random.default_rng(5)) for _ in range(2))
+    assert np.array_equal(first.vertices, again.vertices)
+    assert np.array_equal(first.corner_normals, again.corner_normals)
+    low, high = first.vertices.min(axis=0), first.vertices.max(axis=0)
+    assert np.abs(low + high).max() < 1e-5
+    assert np.linalg.norm(high - low) == pytest.approx(2, abs=1e-4)
+
+
+def test_made_up_creatures_have_the_normals_of_their_surface() -> None:
+    for seed in range(8):
+        model = creature("a", np.random.default_rng(seed))
+        corners = model.vertices[model.faces]
+        flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        alike = np.einsum("fc,fkc->fk", flat, model.corner_normals)
+        assert (alike < 0).mean() < 0.01  # nothing is inside out
+        assert np.abs(np.linalg.norm(model.corner_normals, axis=-1) - 1).max() < 1e-3
+        view = trace(model, view_rotation(20, 10), 256)
+        down, right = np.gradient(view.depth)
+        slope = np.stack([-right, down, np.ones_like(down)], axis=-1)
+        slope /= np.linalg.norm(slope, axis=-1, keepdims=True)
+        broken = np.zeros_like(view.mask)
+        for axis in (0, 1):
+            around = [np.roll(view.depth, shift, axis) for shift in (1, -1)]
+            broken |= np.abs(around[0] + around[1] - 2 * view.depth) > 1
+        smooth = ~ndimage.binary_dilation(broken | ~view.mask, iterations=2)
+        angle = np.degrees(np.arccos(np.clip((slope * view.normals).sum(axis=-1), -1, 1)))
+        assert angle[smooth].mean() < 3
+        assert np.median(angle[smooth]) < 1.5
+
+
+def test_clay_is_as_exact_as_its_parts() -> None:
+    clay = Clay()
+    clay.cone(np.array([-1.0, 0, 0]), 0.5, np.array([1.0, 0, 0]), 0.5, 0.0)
+    mesh = clay.mesh(48)
+    axis = np.clip(mesh.vertices[:, 0], -1, 1)[:, None] * [1.0, 0, 0]
+    outward = (mesh.vertices - axis) / 0.5
+    assert np.abs(np.linalg.norm(outward, axis=1) - 1).max() < 1e-4
+    assert np.abs(outward - mesh.normals).max() < 0.01
+    solid = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    assert solid.is_watertight
+    assert solid.volume == pytest.approx(np.pi / 2 + np.pi / 6, rel=0.01)
+
+
+def test_a_dent_in_clay_is_hollow() -> None:
+    clay = Clay()
+    clay.ellipsoid(np.zeros(3), np.ones(3), 0.0)
+    clay.dent(np.array([0, 0, 1.0]), np.full(3, 0.5), 0.05)
+    mesh = clay.mesh(64)
+    inside = np.linalg.norm(mesh.vertices - [0, 0, 1], axis=1) < 0.5 + 1e-3
+    inside &= np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 1]) < 0.35
+    towards = (np.array([0, 0, 1]) - mesh.vertices[inside]) / 0.5
+    assert inside.sum() > 50
+    assert np.abs(towards - mesh.normals[inside]).max() < 0.02
+
+
+def test_a_turned_cylinder_has_a_wall() -> None:
+    mesh = turned(np.array([[1.0, 0.5], [1.0, -0.5]]), 0.1)
+    solid = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    assert solid.is_watertight
+    assert solid.volume == pytest.approx(2 * np.pi * (0.1 + np.pi * 0.05**2), rel=0.02)
+    straight = np.abs(mesh.vertices[:, 1]) < 0.4
+    radial = mesh.vertices[straight] * [1, 0, 1]
+    outward = np.sign(np.linalg.norm(radial, axis=1) - 1)
+    radial /= np.linalg.norm(radial, axis=1, keepdims=True)
+    assert (np.einsum("vc,vc->v", radial, mesh.normals[straight]) * outward).min() > 0.999
 
 
 def test_models_of_a_large_source_give_fewer_views() -> None:
