@@ -41,8 +41,8 @@ _LEAST_SHARE = 0.02
 class DatasetOptions:
     """``views`` a model, figures of about ``resolution`` squared pixels, ``hands`` drawings a
     view; half of the views show the model with other proportions if ``deform``; a share
-    ``freestyle`` of the views has one drawing by Blender's Freestyle; ``creatures`` figures of
-    ellipsoids are made up, each seen once."""
+    ``freestyle`` of the views has one drawing by Blender's Freestyle; ``creatures`` figures
+    are made up, each seen once."""
 
     views: int = PAPER_VIEWPOINTS
     resolution: int = 512

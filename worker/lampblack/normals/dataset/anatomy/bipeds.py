@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .clay import Vector
 from .faces import MUZZLES, head
+from .field import Vector
 from .figure import Ball, Figure, aim, towards
 
 # leg, trunk; width of hips and shoulders; belly; neck; head; arm; thickness of limbs.

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .bipeds import hand
-from .clay import Vector
 from .faces import MUZZLES, head
+from .field import Vector
 from .figure import Figure, aim, towards
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .clay import Clay, Vector
+from .clay import Clay
+from .field import Vector
 from .figure import Ball, Figure, aim, towards
 
 MUZZLES = ("none", "none", "none", "short", "long", "pig", "beak", "trunk")

@@ -10,7 +10,8 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from ..models import Model
-from .clay import Clay, Mesh, Vector
+from .clay import Clay, Mesh
+from .field import Vector
 from .turned import turned
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .clay import Vector
 from .faces import head
+from .field import Vector
 from .figure import Ball, Figure, aim
 
 # length and girth of the trunk; leg and its thickness; neck, its rise in degrees; head, tail.

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from .clay import Mesh, Vector
+from .clay import Mesh
+from .field import Vector
 
 _ALONG, _ROUND_END, _AROUND = 24, 6, 120
 
