@@ -88,7 +88,9 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
     const QString folder = mFolder.filePath(QString::number(++mExports));
     if (!mFolder.isValid() || !QDir().mkpath(folder))
     {
-        fail(first, last, layers, QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
+        for (int frame = first; frame <= last; ++frame)
+            fail({frame, layers}, mWanted.take({frame, layers}),
+                 QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
         return;
     }
 
@@ -119,43 +121,43 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
 
     for (int frame = first; frame <= last; ++frame)
     {
+        const int failures = mWanted.take({frame, layers});
         if (exported.files.contains(frame))
-        {
-            mWanted.remove({frame, layers});
-            readLater({frame, layers}, exported.files.value(frame), mExports);
-        }
+            readLater({frame, layers}, failures, exported.files.value(frame), mExports);
         else
-            fail(frame, frame, layers, exported.fault);
+            fail({frame, layers}, failures, exported.fault);
     }
     Q_EMIT looked(exported);
 }
 
-void FrameQueue::fail(int first, int last, const QStringList& layers, const QString& details)
+void FrameQueue::fail(const Wanted& wanted, int failures, const QString& details)
 {
     constexpr int MaxAttempts = 3;
-    for (int frame = first; frame <= last; ++frame)
+    if (failures + 1 < MaxAttempts)
     {
-        if (++mWanted[{frame, layers}] < MaxAttempts)
-            continue;
-        mWanted.remove({frame, layers});
-        Q_EMIT failed(frame, {QStringLiteral("Frame %1 could not be read from Pencil2D.").arg(frame),
-                              QStringLiteral("Save the project, then try again."), details});
+        mWanted.insert(wanted, failures + 1);
+        if (!mTimer.isActive())
+            mTimer.start(RetryMs);
+        return;
     }
+    Q_EMIT failed(wanted.first,
+                  {QStringLiteral("Frame %1 could not be read from Pencil2D.").arg(wanted.first),
+                   QStringLiteral("Save the project, then try again."), details});
 }
 
-void FrameQueue::readLater(const Wanted& wanted, const QString& path, quint64 number)
+void FrameQueue::readLater(const Wanted& wanted, int failures, const QString& path, quint64 number)
 {
     ++mReading;
     mNewest.insert(wanted, number);
     mReaders.start(
-        [this, wanted, path, number]
+        [this, wanted, failures, path, number]
         {
             const QImage image = readPng(path);
             QFile::remove(path);
             QDir().rmdir(QFileInfo(path).path());
             QMetaObject::invokeMethod(
                 this,
-                [this, wanted, image, number]
+                [this, wanted, failures, image, number]
                 {
                     --mReading;
                     if (mNewest.value(wanted) != number)
@@ -163,7 +165,7 @@ void FrameQueue::readLater(const Wanted& wanted, const QString& path, quint64 nu
                     mNewest.remove(wanted);
                     const auto [frame, layers] = wanted;
                     if (image.isNull())
-                        fail(frame, frame, layers, QStringLiteral("The exported PNG could not be read."));
+                        fail(wanted, failures, QStringLiteral("The exported PNG could not be read."));
                     else
                         Q_EMIT exported(frame, layers, image);
                 },

@@ -44,8 +44,10 @@ private:
     using Wanted = QPair<int, QStringList>; ///< a frame, and its layers that are asked for
 
     void exportChunk(int first, int last, const QStringList& layers);
-    void readLater(const Wanted& wanted, const QString& path, quint64 number);
-    void fail(int first, int last, const QStringList& layers, const QString& details);
+    /// Reads the export in another thread; it failed as often before.
+    void readLater(const Wanted& wanted, int failures, const QString& path, quint64 number);
+    /// Wants the frame again, or gives it up.
+    void fail(const Wanted& wanted, int failures, const QString& details);
 
     Parts mParts;
     Idleness* mIdleness;
