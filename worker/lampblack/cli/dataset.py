@@ -30,9 +30,7 @@ def build(
     freestyle: Annotated[
         float, typer.Option(min=0, max=1, help="Share of views with a Freestyle drawing.")
     ] = 0.2,
-    creatures: Annotated[
-        int, typer.Option(min=0, max=100_000, help="Made-up figures to add.")
-    ] = 0,
+    creatures: Annotated[int, typer.Option(min=0, max=100_000, help="Made-up figures to add.")] = 0,
     workers: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
     seed: Annotated[int, typer.Option(min=0, help="Of viewpoints and hands.")] = 0,
 ) -> None:

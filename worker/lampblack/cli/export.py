@@ -7,13 +7,10 @@ from typing import Annotated
 
 import typer
 
-from ..errors import LampblackError
+from ..finals.one_frame import first_frame
 from ..finals.order import Order, open_shot
 from ..finals.scene_file import SUFFIXES, save_scene
-from ..finals.surroundings import Surroundings
 from ..pipeline import Pipeline
-from ..scene import Canvas
-from ..timeline import scene_at
 from .options import (
     BackgroundOption,
     CameraOption,
@@ -67,14 +64,6 @@ def export(
         camera=camera,
         steady=steady,
     )
-    opened = open_shot(order)
-    if not opened.frames:
-        raise LampblackError("There is no frame to export.")
-    chosen = opened.frames[0]
     with Pipeline(open_cache()) as pipeline:
-        surroundings = Surroundings(opened.shot, pipeline, opened.reach)
-        taken, beside = surroundings.drawing(chosen), surroundings.beside(chosen)
-        canvas = opened.shot.canvas or Canvas(*taken.size)
-        staged = scene_at(opened.staging.scene(canvas), chosen.number or 1)
-        staged = opened.shot.place(staged, taken.size)
-        save_scene(pipeline, taken, staged, output, beside)
+        staged = first_frame(open_shot(order), pipeline)
+        save_scene(pipeline, staged.drawing, staged.scene, output, staged.beside)

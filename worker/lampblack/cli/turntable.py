@@ -13,12 +13,10 @@ from PIL import Image
 from ..atomic import atomic_file
 from ..drawing import save_picture
 from ..errors import LampblackError
+from ..finals.one_frame import first_frame
 from ..finals.order import Order, open_shot
-from ..finals.surroundings import Surroundings
 from ..finals.turntable import turn_table
 from ..pipeline import Pipeline
-from ..scene import Canvas
-from ..timeline import scene_at
 from .console import progress_bar
 from .options import (
     CharacterOption,
@@ -69,17 +67,10 @@ def turntable(
         steady=steady,
     )
     opened = open_shot(order)
-    if not opened.frames:
-        raise LampblackError("There is no frame to look at.")
-    chosen = opened.frames[0]
     with Pipeline(open_cache()) as pipeline, progress_bar() as bar:
         pipeline.child.start()
-        surroundings = Surroundings(opened.shot, pipeline, opened.reach)
-        taken, beside = surroundings.drawing(chosen), surroundings.beside(chosen)
-        canvas = opened.shot.canvas or Canvas(*taken.size)
-        staged = scene_at(opened.staging.scene(canvas), chosen.number or 1)
-        staged = opened.shot.place(staged, taken.size)
-        turned = turn_table(pipeline, taken, staged, pictures, size, beside)
+        staged = first_frame(opened, pipeline)
+        turned = turn_table(pipeline, staged.drawing, staged.scene, pictures, size, staged.beside)
         loop = list(bar.track(turned, total=pictures, description="Turning"))
     if animated:
         _save_gif(output, loop)
@@ -92,7 +83,7 @@ def turntable(
         ) from error
     for number, picture in enumerate(loop, start=1):
         opaque = np.full((*picture.shape[:2], 1), 255, np.uint8)
-        name = f"{Path(chosen.name).stem}.turn.{number:04d}.png"
+        name = f"{Path(staged.frame.name).stem}.turn.{number:04d}.png"
         save_picture(output / name, np.concatenate([picture, opaque], axis=2))
 
 

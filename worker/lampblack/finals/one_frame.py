@@ -1,0 +1,42 @@
+"""One frame of a shot, as it is lit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..drawing import Drawing
+from ..errors import LampblackError
+from ..normals.temporal.steady import Beside
+from ..pipeline import Pipeline
+from ..scene import Canvas, Scene
+from ..timeline import scene_at
+from .order import OpenShot
+from .shot import ShotFrame
+from .surroundings import Surroundings
+
+
+@dataclass(frozen=True)
+class OneFrame:
+    """A drawing, its scene in the drawing's own pixels, and its neighbours in time."""
+
+    frame: ShotFrame
+    drawing: Drawing
+    scene: Scene
+    beside: Beside | None
+
+
+def first_frame(opened: OpenShot, pipeline: Pipeline) -> OneFrame:
+    """Stage the first frame that was asked for.
+
+    Raises:
+        LampblackError: there is none, or its drawing cannot be used.
+    """
+    if not opened.frames:
+        raise LampblackError("There is no such frame.", "See which ones the input has.")
+    frame = opened.frames[0]
+    surroundings = Surroundings(opened.shot, pipeline, opened.reach)
+    drawing = surroundings.drawing(frame)
+    canvas = opened.shot.canvas or Canvas(*drawing.size)
+    scene = scene_at(opened.staging.scene(canvas), frame.number or 1)
+    placed = opened.shot.place(scene, drawing.size)
+    return OneFrame(frame, drawing, placed, surroundings.beside(frame))
