@@ -36,9 +36,9 @@ class NetworkCard:
     architecture: str = "figure-net"
     figure_px: tuple[Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]] = (
         192,
-        384,
+        448,
     )
-    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.2
+    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.15
     training: dict[str, Any] | None = None
     measured: dict[str, Any] | None = None
 
