@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -27,18 +26,12 @@ def atomic_file(path: Path) -> Iterator[BinaryIO]:
 @contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:
     """As ``atomic_file``, for libraries that want the temporary name itself."""
-    temporary = ""
+    # Named before it is made, so that an interruption at any moment knows what to remove.
+    temporary = path.parent / f".{path.stem[:40]}.{secrets.token_hex(8)}.part{path.suffix}"
     try:
-        handle, temporary = tempfile.mkstemp(
-            prefix=f".{path.stem[:40]}.", suffix=f".part{path.suffix}", dir=path.parent
-        )
-        os.close(handle)
-        yield Path(temporary)
-        umask = os.umask(0)
-        os.umask(umask)
-        Path(temporary).chmod(0o666 & ~umask)  # mkstemp's own files are private
-        Path(temporary).replace(path)
-        temporary = ""
+        temporary.open("xb").close()
+        yield temporary
+        temporary.replace(path)
     except OSError as error:
         raise OutputError(
             f"{path} could not be written: {error.strerror or error}.",
@@ -46,6 +39,5 @@ def atomic_path(path: Path) -> Iterator[Path]:
             str(error),
         ) from error
     finally:
-        if temporary:
-            with suppress(OSError):
-                Path(temporary).unlink()
+        with suppress(OSError):
+            temporary.unlink()
