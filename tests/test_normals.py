@@ -17,6 +17,7 @@ from lampblack.normals.figure import canvas_for, canvases, lay
 from lampblack.normals.networks import DilatedUNet, FigureNet, StridedUNet, build_network
 from lampblack.normals.networks.dilated_unet import DILATIONS
 from lampblack.normals.predict import NormalPredictor
+from lampblack.normals.predict_figure import figure_vectors, mean_vectors
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
 from lampblack.normals.training.tiles import normal_loss
@@ -43,13 +44,13 @@ def sphere_model() -> Model:
     return Model("sphere", vertices, mesh.faces.astype(np.int32), vertices[mesh.faces], False)
 
 
-def quiet_network(architecture: str, seed: int = 0) -> NormalPredictor:
+def quiet_network(architecture: str, px: tuple[int, int] | None = None) -> NormalPredictor:
     """An untrained predictor: enough for all that does not depend on the weights."""
-    torch.manual_seed(seed)
+    torch.manual_seed(0)
     network = build_network(architecture)
     if isinstance(network, FigureNet):  # it starts as Lumo, which would hide its faults
         torch.nn.init.normal_(network.normals.weight, std=0.02)
-    px = (96, 128) if architecture == "figure-net" else (256, 640)
+    px = px or ((96, 128) if architecture == "figure-net" else (256, 640))
     return NormalPredictor(network, NetworkCard(architecture, px))
 
 
@@ -175,6 +176,20 @@ def test_the_figure_network_starts_as_lumo() -> None:
     card = NetworkCard("figure-net", (256, 256), roundness=1.0)
     found = NormalPredictor(build_network("figure-net"), card).predict(mask * np.float32(0), mask)
     assert angles(found, lumo_normals(mask))[mask].mean() < 5
+
+
+def test_every_canvas_counts_the_same_and_quick_sees_the_smallest_alone() -> None:
+    mask, _ = ball(300, 120.0)
+    lines = np.random.default_rng(0).random(mask.shape).astype(np.float32) * mask
+    network = quiet_network("figure-net")._network
+    large, _ = figure_vectors(network, 192, lines, mask)
+    once, _ = mean_vectors(network, (96, 192), lines, mask)
+    twice, _ = mean_vectors(network, (96, 96, 192), lines, mask)
+    assert np.allclose(3 * twice - 2 * once, 2 * once - large, atol=1e-5)
+    assert not np.allclose(once, large, atol=0.1)
+    quick = quiet_network("figure-net", (96, 192)).predict(lines, mask, quick=True)
+    small = quiet_network("figure-net", (96, 96)).predict(lines, mask)
+    assert angles(quick, small)[mask].max() < 0.1
 
 
 def test_a_mirrored_figure_has_mirrored_normals() -> None:

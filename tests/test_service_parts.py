@@ -13,6 +13,7 @@ from conftest import draw_ball
 from lampblack.camera import IDENTITY, scene_in_view
 from lampblack.composite.sheet import premultiplied
 from lampblack.errors import LampblackWarning
+from lampblack.pipeline import Pipeline
 from lampblack.protocol import frame_digest
 from lampblack.scene import Floor, Material, default_scene
 from lampblack.service.bounded import BoundedStore
@@ -29,9 +30,9 @@ LOOK = Look(1, 1, "lit", (0.0, 0.0, float(SIZE), float(SIZE)), (SIZE, SIZE))
 
 
 @pytest.fixture(scope="module")
-def model() -> Model:
+def model(pipeline: Pipeline) -> Model:
     planes = {"pixels": draw_ball(SIZE)}
-    return coarse_model(frame_digest(planes), planes)  # type: ignore[arg-type]
+    return coarse_model(frame_digest(planes), planes, pipeline)  # type: ignore[arg-type]
 
 
 def test_the_least_lately_used_goes_first() -> None:

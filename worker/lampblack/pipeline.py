@@ -99,10 +99,6 @@ class Pipeline:
     def warm_up(self) -> None:
         """Load the network and start the renderer before the first drawing comes."""
         self.child.start()
-        self.load_network()
-
-    def load_network(self) -> None:
-        """Load the network alone."""
         _ = self._predictor
 
     def normals(
@@ -126,6 +122,12 @@ class Pipeline:
             return predicted
         here = self._miniature(drawing, predicted)
         return self._steadier.steady(predicted, drawing.mask, here, beside.find())
+
+    def quick_normals(
+        self, lines: NDArray[np.float32], mask: NDArray[np.bool_]
+    ) -> NDArray[np.float32]:
+        """Normals as above, cheaply, for somebody who waits: not kept, and never steadied."""
+        return self._predictor.predict(lines, mask, quick=True)
 
     def miniature(self, drawing: Drawing) -> Miniature:
         """What the drawings beside this one need of it; about 4 MB."""

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cache import ArrayCache
 from ..camera import IDENTITY
+from ..pipeline import Pipeline
 from ..protocol import frame_digest
 from ..render import RenderChild
 from ..scene import Scene
@@ -24,7 +28,8 @@ def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
     denoiser."""
     planes = {"pixels": picture}
     digest = frame_digest(planes)  # type: ignore[arg-type]
-    model = coarse_model(digest, planes)  # type: ignore[arg-type]
+    with TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
+        model = coarse_model(digest, planes, pipeline)  # type: ignore[arg-type]
     crop = (0.0, 0.0, float(picture.shape[1]), float(picture.shape[0]))
     look = Look(1, 1, "lit", crop, (500, 500))
     source = sources_of(Snapshot("", look, digest, IDENTITY, 1, scene), model)[0]

@@ -42,7 +42,7 @@ class Network(Enum):
 
 
 CARDS = {
-    Network.LAMPBLACK: NetworkCard("figure-net", (192, 448), roundness=1.15),
+    Network.LAMPBLACK: NetworkCard(),
     Network.PAPER: NetworkCard("dilated-unet", (256, 768)),
     Network.HUDON2018: NetworkCard("strided-unet", (256, 768)),
 }

@@ -18,6 +18,8 @@ from ..errors import LampblackError
 
 MAX_WEIGHT_BYTES = 256 << 20
 
+Side = Annotated[int, Meta(ge=64, le=4096)]
+
 
 @dataclass(frozen=True)
 class NetworkCard:
@@ -27,18 +29,16 @@ class NetworkCard:
         architecture: a name in ``networks.ARCHITECTURES``.
         figure_px: (smallest, largest) long side of the figures it was trained on, pixels;
             drawings outside are resized into that range. For a network of whole figures, the
-            sides of the squares whose area its canvases have: it answers with the mean of both.
+            sides of the squares whose areas its canvases have, the smallest first: it answers
+            with the mean over all of them.
         roundness: factor on the slopes that undoes the flatness of its means.
         training: how it came to be, for people.
         measured: figures it reached, for people.
     """
 
     architecture: str = "figure-net"
-    figure_px: tuple[Annotated[int, Meta(ge=64, le=4096)], Annotated[int, Meta(ge=64, le=4096)]] = (
-        192,
-        448,
-    )
-    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.15
+    figure_px: Annotated[tuple[Side, ...], Meta(min_length=2, max_length=8)] = (192, 320, 512)
+    roundness: Annotated[float, Meta(gt=0.1, lt=10)] = 1.1
     training: dict[str, Any] | None = None
     measured: dict[str, Any] | None = None
 

@@ -51,6 +51,7 @@ class NormalPredictor:
         mask: NDArray[np.bool_],
         *,
         grids: int = DEFAULT_GRIDS,
+        quick: bool = False,
         progress: Callable[[float], None] = lambda share: None,
     ) -> NDArray[np.float32]:
         """Predict the normals of one drawing.
@@ -60,6 +61,7 @@ class NormalPredictor:
             mask: (H, W) bool.
             grids: 0 for the whole figure at once; 1 to 64 for the paper's network instead, on
                 so many diagonally shifted grids of tiles. A network of tiles takes 5 for 0.
+            quick: see a whole figure on the smallest of its canvases alone.
             progress: told the share done, 0 to 1.
 
         Returns:
@@ -83,7 +85,7 @@ class NormalPredictor:
         box = _bounding_box(mask)
         figure_lines, figure_mask, inner = _past_the_canvas(lines[box], mask[box], box, mask.shape)
         if whole:
-            sides = self.card.figure_px
+            sides = self.card.figure_px[: 1 if quick else None]
             vectors, seen = mean_vectors(self._network, sides, figure_lines, figure_mask)
         else:
             scale = self._scale(max(figure_mask.shape))
@@ -102,7 +104,7 @@ class NormalPredictor:
         return NormalPredictor(*load_network(shipped_weights("dilated-unet")))
 
     def _scale(self, long_side: int) -> float:
-        smallest, largest = self.card.figure_px
+        smallest, *_, largest = self.card.figure_px
         return min(max(long_side, smallest), largest) / long_side
 
 

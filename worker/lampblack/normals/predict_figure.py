@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import torch
 from numpy.typing import NDArray
@@ -21,19 +23,19 @@ from .figure import (
 
 def mean_vectors(
     network: nn.Module,
-    sides: tuple[int, int],
+    sides: Sequence[int],
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """The mean of what the network says of a figure on a small and on a larger canvas: on the
-    small one it sees the whole, on the larger one the parts, and it errs differently on each.
-    As ``figure_vectors``, at the larger size."""
-    smaller, larger = sides
-    vectors, seen = figure_vectors(network, larger, lines, mask)
-    if smaller != larger:
-        rough = extend_outside(*figure_vectors(network, smaller, lines, mask))
-        vectors = (vectors + resize(rough, seen.shape)) / 2
-    return vectors, seen
+    """The mean of what the network says of a figure on canvases of several ``sides``, the
+    largest last: on small ones it sees the whole, on large ones the parts, and it errs
+    differently on each. As ``figure_vectors``, at the largest size."""
+    *smaller, largest = sides
+    vectors, seen = figure_vectors(network, largest, lines, mask)
+    for side in smaller:
+        rough = extend_outside(*figure_vectors(network, side, lines, mask))
+        vectors += resize(rough, seen.shape)
+    return vectors / len(sides), seen
 
 
 def figure_vectors(

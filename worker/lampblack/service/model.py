@@ -11,7 +11,6 @@ from PIL import Image
 
 from ..composite.sheet import Box, Sheet, sheet_of
 from ..drawing import Drawing, take_apart
-from ..normals.silhouette import inflated_normals
 from ..pipeline import Pipeline, surface_step
 from ..protocol import Pixels, Role
 from ..render import Surface, dress, standing_on
@@ -32,7 +31,7 @@ class Model:
     """One drawing, ready to be lit.
 
     Attributes:
-        digest: of the drawing. grade: coarse is inflated from the silhouette alone.
+        digest: of the drawing. grade: coarse is small, and its normals are of quick quality.
         size: (width, height) of the drawing.
         step: pixels of the drawing per pixel of ``sheet``.
         sheet: its layers.
@@ -82,8 +81,8 @@ def take_planes_apart(planes: Planes) -> Drawing:
     )
 
 
-def coarse_model(digest: str, planes: Planes) -> Model:
-    """A first model within a fraction of a second: small, and inflated from its silhouette.
+def coarse_model(digest: str, planes: Planes, pipeline: Pipeline) -> Model:
+    """A first model within a fraction of a second: small, from normals of quick quality.
 
     Raises:
         DrawingError: there is nothing to light.
@@ -91,11 +90,8 @@ def coarse_model(digest: str, planes: Planes) -> Model:
     height, width = planes["pixels"].shape[:2]
     step = -(-max(width, height) // COARSE_PX)
     drawing = take_planes_apart({role: _reduced(plane, step) for role, plane in planes.items()})
-    cover = Image.fromarray(drawing.mask.astype(np.uint8) * 255)
-    mask = np.asarray(cover.resize(_half(drawing.size), Image.Resampling.BOX)) > 96
-    if not mask.any():
-        mask = drawing.mask
-    normals = inflated_normals(mask)
+    lines, mask = _halved(drawing)
+    normals = pipeline.quick_normals(lines, mask)
     heights = solve(normals, mask) * np.float32(width / mask.shape[1])
     return _model(digest, "coarse", (width, height), step, drawing, mask, normals, heights)
 
@@ -143,8 +139,15 @@ def _model(
     )
 
 
-def _half(size: tuple[int, int]) -> tuple[int, int]:
-    return max(1, size[0] // 2), max(1, size[1] // 2)
+def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """Lines and mask at half the size; of a figure too fine for that, as they are."""
+    size = max(1, drawing.size[0] // 2), max(1, drawing.size[1] // 2)
+    cover = Image.fromarray(drawing.mask.astype(np.uint8) * 255)
+    mask = np.asarray(cover.resize(size, Image.Resampling.BOX)) > 96
+    if not mask.any():
+        return drawing.lines, drawing.mask
+    lines = Image.fromarray(drawing.lines).resize(size, Image.Resampling.BOX)
+    return np.asarray(lines), mask
 
 
 def _grey(plane: Pixels) -> Pixels:

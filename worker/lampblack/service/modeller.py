@@ -55,8 +55,7 @@ class Modeller:
         disk = np.zeros((64, 64, 4), np.uint8)
         disk[12:52, 12:52] = 120, 120, 120, 255
         with noticed_warnings(), suppress(LampblackError):
-            coarse_model("", {"pixels": disk}).surface(default_scene(64, 64))
-            self.pipeline.load_network()
+            coarse_model("", {"pixels": disk}, self.pipeline).surface(default_scene(64, 64))
 
     def _next(self) -> Order | None:
         """The most urgent model that is missing and can be made."""
@@ -76,7 +75,7 @@ class Modeller:
         try:
             if grade == "coarse":
                 with noticed_warnings():
-                    model = coarse_model(digest, planes)
+                    model = coarse_model(digest, planes, self.pipeline)
             else:
                 model = self._fine(order)
         except _Superseded:
