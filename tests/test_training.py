@@ -203,12 +203,13 @@ def test_the_course_of_a_run_can_be_looked_at(
     assert 0 < told[0]["seconds"] < told[1]["seconds"]
 
 
-def test_training_begins_with_given_weights(data: Path, tmp_path: Path) -> None:
+def test_training_begins_with_the_mean_of_given_weights(data: Path, tmp_path: Path) -> None:
     torch.manual_seed(5)
-    given = tmp_path / "given.safetensors"
-    network = build_network("figure-net")
     card = NetworkCard("figure-net", (64, 96))
-    save_network(given, network, card)
+    networks = [build_network("figure-net") for _ in range(3)]
+    given = [tmp_path / f"{number}.safetensors" for number in range(3)]
+    for path, network in zip(given, networks, strict=True):
+        save_network(path, network, card)
 
     def stop(progress: Progress) -> None:
         raise Enough
@@ -217,8 +218,8 @@ def test_training_begins_with_given_weights(data: Path, tmp_path: Path) -> None:
     with pytest.raises(Enough):
         train(data, tmp_path / "run", card, options, stop, given)
     begun, _ = load_network(tmp_path / "run" / "network.safetensors")
-    for old, new in zip(network.parameters(), begun.parameters(), strict=True):
-        assert torch.allclose(old, new, atol=1e-3)
+    for *old, new in zip(*(n.parameters() for n in [*networks, begun]), strict=True):
+        assert torch.allclose(sum(old) / 3, new, atol=1e-3)
     with pytest.raises(LampblackError, match="figure-net"):
         train(data, tmp_path / "other", NetworkCard("dilated-unet"), options, stop, given)
 

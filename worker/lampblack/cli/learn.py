@@ -92,8 +92,12 @@ def train(
         ),
     ] = None,
     begin_with: Annotated[
-        Path | None,
-        typer.Option("--from", metavar="SAFETENSORS", help="Weights that a new run begins with."),
+        list[Path] | None,
+        typer.Option(
+            "--from",
+            metavar="SAFETENSORS",
+            help="Weights that a new run begins with; of several, their mean.",
+        ),
     ] = None,
     batch: Annotated[int, typer.Option(min=1, max=256, help="Figures or tiles a step.")] = 12,
     seed: Annotated[int, typer.Option(min=0, help="Of views and weights.")] = 0,
@@ -115,7 +119,7 @@ def train(
             told = f"step {progress.step}, {progress.angle:.1f} degrees"
             bar.update(task, completed=round(progress.seconds), description=told)
 
-        weights = run_training(data, output, CARDS[network], options, report, begin_with)
+        weights = run_training(data, output, CARDS[network], options, report, begin_with or ())
     console.print(f"Weights and card: {weights}", markup=False)
 
 
