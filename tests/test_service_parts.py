@@ -97,6 +97,19 @@ def test_a_coarse_model_is_a_closed_dome_in_register(model: Model) -> None:
     assert top < 17 < 143 < top + height
 
 
+def test_a_coarse_model_knows_the_lines(pipeline: Pipeline) -> None:
+    """What is shown first is no mere dome: it is predicted, like what follows."""
+    plain = draw_ball(SIZE)
+    split = plain.copy()
+    split[78:82, 30:130] = 0, 0, 0, 255
+    one, other = (
+        coarse_model("", {"pixels": pixels}, pipeline).normals.astype(int)
+        for pixels in (plain, split)
+    )
+    assert one.shape == other.shape
+    assert np.abs(one - other)[20:60, 20:60].mean() > 3
+
+
 def test_the_camera_takes_the_scene_along() -> None:
     scene = replace(default_scene(100, 80), floor=Floor(70.0))
     assert scene_in_view(scene, IDENTITY, (100, 80)) == scene
