@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import psutil
@@ -24,7 +26,7 @@ from lampblack.normals.figure import LUMO
 from lampblack.normals.networks import build_network
 from lampblack.normals.training.checkpoint import Progress
 from lampblack.normals.training.curve import SIZE
-from lampblack.normals.training.figure_loss import angles
+from lampblack.normals.training.figure_loss import Batch, angles
 from lampblack.normals.training.figures import FigureCourse, figure_of, sample
 from lampblack.normals.training.normalisation import retake_statistics
 from lampblack.normals.training.tiles import view_of
@@ -166,7 +168,7 @@ def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> No
             raise Enough
 
     card = NetworkCard("figure-net", (64, 96))
-    options = TrainingOptions(batch=2, sides=(64, 96), capacity=4)
+    options = TrainingOptions(batch=2, sides=(64, 96), first_side=64, capacity=4)
     for _ in range(2):
         with pytest.raises(Enough):
             train(data, run, card, options, stop_every_second)
@@ -177,6 +179,36 @@ def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> No
     other = NetworkCard("strided-unet")
     with pytest.raises(LampblackError, match="another network"):
         train(data, run, other, TrainingOptions())
+
+
+def test_a_run_from_nothing_begins_on_small_canvases(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seconds = itertools.count()
+    clock = SimpleNamespace(process_time=lambda: next(seconds), monotonic=time.monotonic)
+    monkeypatch.setattr("lampblack.normals.training.train.time", clock)
+    widest: list[int] = []
+    batch_of = FigureCourse._batch
+
+    def seen(course: FigureCourse, size: int) -> Batch:
+        batch = batch_of(course, size)
+        widest.append(max(batch.fine.shape[2:]))
+        return batch
+
+    monkeypatch.setattr(FigureCourse, "_batch", seen)
+    monkeypatch.setattr("lampblack.normals.training.train.STATISTICS_ROUNDS", 0)
+    monkeypatch.setattr("lampblack.normals.training.train.EXAMPLES", 1)
+    options = TrainingOptions(minutes=0.1, batch=1, sides=(160,), first_side=64, capacity=2)
+    card = NetworkCard("figure-net", (64, 96))
+    begun = train(data, tmp_path / "run", card, options)
+    # Six steps of a second: two fifths of the time is three, and a look at the end of each part.
+    assert [width < 160 for width in widest] == 4 * [True] + 4 * [False]
+    _, kept = load_network(begun)
+    assert kept.training is not None
+    assert kept.training["canvas_sides"] == [[64], [160]]
+    widest.clear()
+    train(data, tmp_path / "later", card, options, begin_with=[begun])
+    assert min(widest) >= 160
 
 
 def test_the_course_of_a_run_can_be_looked_at(
@@ -190,7 +222,7 @@ def test_the_course_of_a_run_can_be_looked_at(
         if progress.step % 2 == 0:
             raise Enough
 
-    options = TrainingOptions(batch=1, sides=(64,), capacity=4)
+    options = TrainingOptions(batch=1, sides=(64,), first_side=64, capacity=4)
     for _ in range(2):
         with pytest.raises(Enough):
             train(data, run, card, options, stop)
@@ -214,7 +246,7 @@ def test_training_begins_with_the_mean_of_given_weights(data: Path, tmp_path: Pa
     def stop(progress: Progress) -> None:
         raise Enough
 
-    options = TrainingOptions(batch=1, sides=(64,), capacity=1, learning_rate=0.0)
+    options = TrainingOptions(batch=1, sides=(64,), first_side=64, capacity=1, learning_rate=0.0)
     with pytest.raises(Enough):
         train(data, tmp_path / "run", card, options, stop, given)
     begun, _ = load_network(tmp_path / "run" / "network.safetensors")

@@ -91,6 +91,16 @@ def train(
             "times, and figures are seen at all of these sizes.",
         ),
     ] = None,
+    first_side: Annotated[
+        int,
+        typer.Option(
+            min=64,
+            max=1024,
+            metavar="PIXELS",
+            help="Of the canvases in the first two fifths of a run that begins from nothing: "
+            "small ones cost little.",
+        ),
+    ] = TrainingOptions.first_side,
     begin_with: Annotated[
         list[Path] | None,
         typer.Option(
@@ -109,7 +119,9 @@ def train(
 
     Example: lampblack train dataset/ -o runs/first --minutes 90
     """
-    options = TrainingOptions(minutes=minutes, threads=threads, batch=batch, seed=seed)
+    options = TrainingOptions(
+        minutes=minutes, threads=threads, batch=batch, seed=seed, first_side=first_side
+    )
     if sides:
         options = replace(options, sides=tuple(sides))
     with progress_bar() as bar:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -36,7 +37,7 @@ class Checkpoint:
         folder: Path,
         network: nn.Module,
         average: nn.Module,
-        optimiser: torch.optim.Optimizer,
+        optimisers: Sequence[torch.optim.Optimizer],
         card: NetworkCard,
     ) -> None:
         self.weights = folder / "network.safetensors"
@@ -44,7 +45,7 @@ class Checkpoint:
         self._log, self._curve = folder / "log.jsonl", folder / "curve.png"
         self._card = card
         self._course: list[Progress] = []
-        self._network, self._average, self._optimiser = network, average, optimiser
+        self._network, self._average, self._optimisers = network, average, optimisers
 
     def log(self, progress: Progress) -> None:
         """Take ``progress`` down, to be written with the next checkpoint."""
@@ -53,8 +54,9 @@ class Checkpoint:
     def save(self, progress: Progress) -> None:
         """Write checkpoint, averaged weights, log and curve."""
         moments = {
-            f"optimiser.{index}.{name}": torch.as_tensor(value)
-            for index, moment in self._optimiser.state_dict()["state"].items()
+            f"optimiser.{which}.{index}.{name}": torch.as_tensor(value)
+            for which, optimiser in enumerate(self._optimisers)
+            for index, moment in optimiser.state_dict()["state"].items()
             for name, value in moment.items()
         }
         named = {f"network.{n}": t for n, t in self._network.state_dict().items()}
@@ -82,6 +84,7 @@ class Checkpoint:
         """
         if not self._tensors.exists():
             return Progress()
+        states: list[dict[int, dict[str, Tensor]]] = [{} for _ in self._optimisers]
         try:
             tensors = load_file(self._tensors)
             for prefix, module in (("network.", self._network), ("average.", self._average)):
@@ -89,20 +92,23 @@ class Checkpoint:
                     {n.removeprefix(prefix): t for n, t in tensors.items() if n.startswith(prefix)}
                 )
             step, seconds, angle = tensors["progress"].tolist()
+            for name, tensor in tensors.items():
+                if name.startswith("optimiser."):
+                    _, which, index, field = name.split(".")
+                    states[int(which)].setdefault(int(index), {})[field] = tensor
             if self._log.exists():
                 lines = self._log.read_bytes().splitlines()
                 self._course = [msgspec.json.decode(line, type=Progress) for line in lines]
-        except (OSError, SafetensorError, RuntimeError, KeyError, msgspec.DecodeError) as error:
+        except (
+            *(OSError, SafetensorError, msgspec.DecodeError),
+            *(RuntimeError, KeyError, ValueError, IndexError),
+        ) as error:
             raise LampblackError(
-                f"The checkpoint {self._tensors} is damaged, or of another network.",
+                f"The checkpoint {self._tensors} is damaged, or of another network or version.",
                 "Remove it to begin anew.",
                 str(error),
             ) from error
-        state: dict[int, dict[str, Tensor]] = {}
-        for name, tensor in tensors.items():
-            if name.startswith("optimiser."):
-                _, index, field = name.split(".")
-                state.setdefault(int(index), {})[field] = tensor
-        groups = self._optimiser.state_dict()["param_groups"]
-        self._optimiser.load_state_dict({"state": state, "param_groups": groups})
+        for optimiser, state in zip(self._optimisers, states, strict=True):
+            groups = optimiser.state_dict()["param_groups"]
+            optimiser.load_state_dict({"state": state, "param_groups": groups})
         return Progress(int(step), seconds, angle)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-CERTAINTY, DEPTH, OCCLUSION = 0.1, 1.0, 0.05
+CERTAINTY, DEPTH, OCCLUSION = 0.03, 0.2, 0.02
 
 
 @dataclass(frozen=True)

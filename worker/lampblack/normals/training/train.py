@@ -20,6 +20,7 @@ from ..networks import build_network
 from .checkpoint import Checkpoint, Progress
 from .example import save_examples
 from .figures import FigureCourse
+from .muon import optimisers
 from .normalisation import retake_statistics
 from .tiles import TileCourse
 
@@ -29,6 +30,7 @@ FIGURES = ("figure-net",)
 EXAMPLES = 8
 STATISTICS_ROUNDS = 20
 LOG_STEPS = 50
+WEIGHT_DECAY = 0.02
 _ANGLE_STEPS = 100
 """Steps over which the mean angle is told."""
 
@@ -38,16 +40,19 @@ class TrainingOptions:
     """``minutes`` of processor time of each of ``threads`` are the whole budget, over all runs:
     a busy or suspended machine does not shorten it. Over the last ``decay`` of it the learning
     rate falls to 0. The weights written are an average with a memory of ``1 / (1 - ema)`` steps.
-    ``sides`` are those of the canvases of whole figures. ``capacity`` examples are kept in
-    memory."""
+    ``sides`` are those of the canvases of whole figures; a run that begins from nothing sees
+    them on canvases of ``first_side``, at a third of the price, for ``first_share`` of its
+    budget. ``capacity`` examples are kept in memory."""
 
     minutes: float = 60.0
     threads: int = 1
     batch: int = 12
     sides: tuple[int, ...] = (160, 192, 256, 352)
-    learning_rate: float = 1e-3
+    first_side: int = 128
+    first_share: float = 0.4
+    learning_rate: float = 3e-3
     warm_up: int = 200
-    decay: float = 0.4
+    decay: float = 0.5
     ema: float = 0.998
     checkpoint_minutes: float = 3.0
     capacity: int = 2000
@@ -84,52 +89,85 @@ def train(
     network = _first_weights(card, begin_with).train()
     average = build_network(card.architecture)
     average.load_state_dict(network.state_dict())
-    optimiser = torch.optim.AdamW(
-        network.parameters(), lr=0.0, weight_decay=0.02, betas=(0.9, 0.98), fused=True
-    )
+    steppers = optimisers(network, WEIGHT_DECAY)
     told: dict[str, object] = {
         "batch": options.batch,
         "seed": options.seed,
         "threads": options.threads,
     }
-    if card.architecture in FIGURES:
-        told["canvas_sides"] = options.sides
-    checkpoint = Checkpoint(output, network, average, optimiser, replace(card, training=told))
-    progress = checkpoint.load()
-    with _course(data, card, options, options.seed * 1_000_003 + progress.step) as course:
+    whole = card.architecture in FIGURES
+    stages = [(1.0, options.sides)]
+    if whole and not begin_with:
+        stages.insert(0, (options.first_share, (options.first_side,)))
+    if whole:
+        told["canvas_sides"] = [sides for _, sides in stages]
+    checkpoint = Checkpoint(output, network, average, steppers, replace(card, training=told))
+    run = _Run(network, average, steppers, checkpoint, options, report, checkpoint.load())
+    for share, sides in stages:
+        until = 60 * options.minutes * share
+        if run.progress.seconds < until:
+            seed = options.seed * 1_000_003 + run.progress.step
+            with (
+                FigureCourse(data, sides, seed, options.capacity)
+                if whole
+                else TileCourse(data, seed, options.capacity)
+            ) as course:
+                run.go(course, until)
+    return checkpoint.weights
 
-        def keep() -> None:
-            see = partial(course.loss, average, options.batch)
-            retake_statistics(average, see, STATISTICS_ROUNDS)
-            checkpoint.save(progress)
-            save_examples(output / "examples.png", course.examples(average, EXAMPLES))
 
+@dataclass
+class _Run:
+    network: nn.Module
+    average: nn.Module
+    steppers: Sequence[torch.optim.Optimizer]
+    checkpoint: Checkpoint
+    options: TrainingOptions
+    report: Callable[[Progress], None]
+    progress: Progress
+
+    def go(self, course: FigureCourse | TileCourse, until: float) -> None:
+        """Follow the course until so many seconds are spent, all in all."""
+        progress = self.progress
         earlier, began, saved = progress.seconds, time.process_time(), time.monotonic()
         try:
-            while progress.seconds < 60 * options.minutes:
-                for group in optimiser.param_groups:
-                    group["lr"] = _learning_rate(options, progress)
-                loss = course.loss(network, options.batch)
-                optimiser.zero_grad(set_to_none=True)
-                loss.total.backward()  # type: ignore[no-untyped-call]
-                nn.utils.clip_grad_norm_(network.parameters(), 1.0)
-                optimiser.step()
-                _follow(average, network, min(options.ema, progress.step / (progress.step + 10)))
-                progress.step += 1
-                progress.angle += (loss.angle - progress.angle) * max(
-                    1 / _ANGLE_STEPS, 1 / progress.step
-                )
-                progress.seconds = earlier + (time.process_time() - began) / options.threads
+            while progress.seconds < until:
+                self._step(course)
+                progress.seconds = earlier + (time.process_time() - began) / self.options.threads
                 if progress.step % LOG_STEPS == 0:
-                    checkpoint.log(progress)
-                report(progress)
-                if time.monotonic() - saved > 60 * options.checkpoint_minutes:
-                    keep()
+                    self.checkpoint.log(progress)
+                self.report(progress)
+                if time.monotonic() - saved > 60 * self.options.checkpoint_minutes:
+                    self._keep(course)
                     saved = time.monotonic()
         finally:
             if progress.step:
-                keep()
-    return checkpoint.weights
+                self._keep(course)
+
+    def _step(self, course: FigureCourse | TileCourse) -> None:
+        progress = self.progress
+        loss = course.loss(self.network, self.options.batch)
+        self.network.zero_grad(set_to_none=True)
+        loss.total.backward()  # type: ignore[no-untyped-call]
+        nn.utils.clip_grad_norm_(self.network.parameters(), 1.0)
+        for stepper in self.steppers:
+            for group in stepper.param_groups:
+                group["lr"] = _learning_rate(self.options, progress)
+            stepper.step()
+        keep = min(self.options.ema, progress.step / (progress.step + 10))
+        _follow(self.average, self.network, keep)
+        progress.step += 1
+        newest = max(1 / _ANGLE_STEPS, 1 / progress.step)
+        progress.angle += (loss.angle - progress.angle) * newest
+
+    def _keep(self, course: FigureCourse | TileCourse) -> None:
+        see = partial(course.loss, self.average, self.options.batch)
+        retake_statistics(self.average, see, STATISTICS_ROUNDS)
+        self.checkpoint.save(self.progress)
+        save_examples(
+            self.checkpoint.weights.with_name("examples.png"),
+            course.examples(self.average, EXAMPLES),
+        )
 
 
 def _first_weights(card: NetworkCard, begin_with: Sequence[Path]) -> nn.Module:
@@ -143,14 +181,6 @@ def _first_weights(card: NetworkCard, begin_with: Sequence[Path]) -> nn.Module:
             )
         _follow(first, network, 1 - 1 / number)
     return first
-
-
-def _course(
-    data: Path, card: NetworkCard, options: TrainingOptions, seed: int
-) -> FigureCourse | TileCourse:
-    if card.architecture in FIGURES:
-        return FigureCourse(data, options.sides, seed, options.capacity)
-    return TileCourse(data, seed, options.capacity)
 
 
 def _learning_rate(options: TrainingOptions, progress: Progress) -> float:

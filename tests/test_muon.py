@@ -1,0 +1,97 @@
+"""Muon: steps of equal singular values, and all that is needed to go on with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import torch
+from torch import nn
+
+from lampblack.errors import LampblackError
+from lampblack.normals.card import NetworkCard
+from lampblack.normals.networks import ARCHITECTURES, build_network
+from lampblack.normals.training.checkpoint import Checkpoint, Progress
+from lampblack.normals.training.muon import Muon, optimisers, orthogonal
+
+
+@pytest.mark.parametrize("shape", [(3, 16, 16), (2, 24, 200), (1, 224, 2016)])
+def test_singular_values_are_brought_near_one_and_directions_kept(
+    shape: tuple[int, int, int],
+) -> None:
+    torch.manual_seed(0)
+    count, rows, columns = shape
+    u, _ = torch.linalg.qr(torch.randn(count, rows, rows))
+    v, _ = torch.linalg.qr(torch.randn(count, columns, rows))
+    values = torch.logspace(-1.5, 0, rows)
+    found = orthogonal(1e-3 * (u * values) @ v.mT)
+    assert found.dtype == torch.float32
+    turned = u.mT @ found @ v
+    reached = turned.diagonal(dim1=1, dim2=2)
+    # What is a hundredth of the whole and more; bf16 keeps three digits.
+    assert reached[:, values > 0.01 * values.norm()].min() > 0.55
+    assert reached.max() < 1.3
+    assert (turned - torch.diag_embed(reached)).abs().max() < 0.05
+    assert not orthogonal(torch.zeros(shape)).any()
+
+
+@pytest.mark.parametrize("shape", [(32, 4, 3, 3), (16, 64, 1, 1), (16, 16)])
+def test_steps_are_of_adams_size_and_go_down(shape: tuple[int, ...]) -> None:
+    torch.manual_seed(0)
+    weight = nn.Parameter(torch.randn(shape))
+    before = weight.detach().clone()
+    optimiser = Muon([weight], lr=0.01, weight_decay=0.0)
+    (weight.square().sum() / 2).backward()  # type: ignore[no-untyped-call]
+    optimiser.step()
+    moved = weight.detach() - before
+    assert moved.square().mean().sqrt() == pytest.approx(0.2 * 0.01, rel=0.35)
+    assert (moved * before).sum() < 0
+
+
+@pytest.mark.parametrize("architecture", sorted(ARCHITECTURES))
+def test_every_weight_has_one_optimiser(architecture: str) -> None:
+    network = build_network(architecture)
+    stepped = [
+        id(weight)
+        for optimiser in optimisers(network, 0.02)
+        for group in optimiser.param_groups
+        for weight in group["params"]
+    ]
+    assert sorted(stepped) == sorted(id(weight) for weight in network.parameters())
+
+
+class Small(nn.Sequential):
+    """Weights of both kinds."""
+
+    def __init__(self) -> None:
+        super().__init__(nn.Conv2d(2, 16, 3), nn.BatchNorm2d(16), nn.Conv2d(16, 3, 1))
+
+
+def stepped(network: nn.Module, steppers: list[torch.optim.Optimizer]) -> None:
+    network.zero_grad()
+    network(torch.linspace(-1, 1, 2 * 2 * 6 * 6).reshape(2, 2, 6, 6)).square().sum().backward()
+    for stepper in steppers:
+        for group in stepper.param_groups:
+            group["lr"] = 0.01
+        stepper.step()
+
+
+def test_a_run_that_goes_on_takes_the_very_steps_it_would_have_taken(tmp_path: Path) -> None:
+    torch.manual_seed(0)
+    network, average = Small(), Small()
+    steppers = optimisers(network, 0.02)
+    for _ in range(3):
+        stepped(network, steppers)
+    Checkpoint(tmp_path, network, average, steppers, NetworkCard()).save(Progress(3, 1.0, 50.0))
+    later = Small()
+    others = optimisers(later, 0.02)
+    again = Checkpoint(tmp_path, later, Small(), others, NetworkCard())
+    assert again.load().step == 3
+    for _ in range(2):
+        stepped(network, steppers)
+        stepped(later, others)
+    for name, tensor in network.state_dict().items():
+        assert torch.equal(tensor, later.state_dict()[name]), name
+    alone = [torch.optim.AdamW(later.parameters())]
+    with pytest.raises(LampblackError, match="version"):
+        Checkpoint(tmp_path, later, Small(), alone, NetworkCard()).load()
