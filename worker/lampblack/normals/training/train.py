@@ -52,7 +52,7 @@ class TrainingOptions:
     first_share: float = 0.4
     learning_rate: float = 3e-3
     warm_up: int = 200
-    decay: float = 0.5
+    decay: float = 0.7
     ema: float = 0.998
     checkpoint_minutes: float = 3.0
     capacity: int = 2000
