@@ -10,9 +10,10 @@ from torch import nn
 
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard
-from lampblack.normals.networks import ARCHITECTURES, build_network
+from lampblack.normals.networks import build_network
 from lampblack.normals.training.checkpoint import Checkpoint, Progress
-from lampblack.normals.training.muon import Muon, optimisers, orthogonal
+from lampblack.normals.training.muon import Muon, orthogonal
+from lampblack.normals.training.recipe import FIGURES, TILES, Recipe
 
 
 @pytest.mark.parametrize("shape", [(3, 16, 16), (2, 24, 200), (1, 224, 2016)])
@@ -48,12 +49,15 @@ def test_steps_are_of_adams_size_and_go_down(shape: tuple[int, ...]) -> None:
     assert (moved * before).sum() < 0
 
 
-@pytest.mark.parametrize("architecture", sorted(ARCHITECTURES))
-def test_every_weight_has_one_optimiser(architecture: str) -> None:
+@pytest.mark.parametrize(
+    ("architecture", "recipe"),
+    [("figure-net", FIGURES), ("dilated-unet", TILES), ("strided-unet", TILES)],
+)
+def test_every_weight_has_one_optimiser(architecture: str, recipe: Recipe) -> None:
     network = build_network(architecture)
     stepped = [
         id(weight)
-        for optimiser in optimisers(network, 0.02)
+        for optimiser in recipe.optimisers(network)
         for group in optimiser.param_groups
         for weight in group["params"]
     ]
@@ -66,25 +70,27 @@ class Small(nn.Sequential):
     def __init__(self) -> None:
         super().__init__(nn.Conv2d(2, 16, 3), nn.BatchNorm2d(16), nn.Conv2d(16, 3, 1))
 
+    def steppers(self) -> list[torch.optim.Optimizer]:
+        others = [*self[0].parameters(), *self[1].parameters(), *self[2].parameters()][1:]
+        return [Muon([self[0].weight], 0.01, 0.02), torch.optim.AdamW(others, 0.01)]
+
 
 def stepped(network: nn.Module, steppers: list[torch.optim.Optimizer]) -> None:
     network.zero_grad()
     network(torch.linspace(-1, 1, 2 * 2 * 6 * 6).reshape(2, 2, 6, 6)).square().sum().backward()
     for stepper in steppers:
-        for group in stepper.param_groups:
-            group["lr"] = 0.01
         stepper.step()
 
 
 def test_a_run_that_goes_on_takes_the_very_steps_it_would_have_taken(tmp_path: Path) -> None:
     torch.manual_seed(0)
     network, average = Small(), Small()
-    steppers = optimisers(network, 0.02)
+    steppers = network.steppers()
     for _ in range(3):
         stepped(network, steppers)
     Checkpoint(tmp_path, network, average, steppers, NetworkCard()).save(Progress(3, 1.0, 50.0))
     later = Small()
-    others = optimisers(later, 0.02)
+    others = later.steppers()
     again = Checkpoint(tmp_path, later, Small(), others, NetworkCard())
     assert again.load().step == 3
     for _ in range(2):

@@ -246,7 +246,7 @@ def test_training_begins_with_the_mean_of_given_weights(data: Path, tmp_path: Pa
     def stop(progress: Progress) -> None:
         raise Enough
 
-    options = TrainingOptions(batch=1, sides=(64,), first_side=64, capacity=1, learning_rate=0.0)
+    options = TrainingOptions(batch=1, sides=(64,), first_side=64, capacity=1, rate=0.0)
     with pytest.raises(Enough):
         train(data, tmp_path / "run", card, options, stop, given)
     begun, _ = load_network(tmp_path / "run" / "network.safetensors")

@@ -100,6 +100,11 @@ class FigureNet(nn.Module):
         nn.init.zeros_(self.normals.weight)
         nn.init.zeros_(self.normals.bias)  # type: ignore[arg-type]
 
+    @property
+    def heads(self) -> tuple[nn.Conv2d, nn.Conv2d]:
+        """The last layers."""
+        return self.normals, self.auxiliary
+
     def forward(self, fine: Tensor, coarse: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Args:
             fine: (B, 2, H, W), coarse: (B, 10, H/4, W/4); see ``figure.py``.

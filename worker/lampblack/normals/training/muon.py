@@ -2,7 +2,7 @@
 
 A step of Adam's on a layer's weights is led by few directions in which all examples agree. Muon
 brings the momentum's singular values near 1, so that the rare directions are learnt as well: on
-drawings it learns more in an hour although its steps cost more.
+drawings it learns more in the same time although its steps cost more.
 """
 
 from __future__ import annotations
@@ -11,10 +11,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 
 import torch
-from torch import Tensor, nn
-
-FEWEST_CHANNELS = 16
-"""A layer of fewer outputs has too few directions to be worth it."""
+from torch import Tensor
 
 _QUINTIC = (3.4445, -4.7750, 2.0315)
 _ROUNDS = 5
@@ -67,19 +64,3 @@ def orthogonal(matrices: Tensor) -> Tensor:
         x = torch.baddbmm(x, factor, x, beta=linear)
     found: Tensor = x.float()
     return found
-
-
-def optimisers(network: nn.Module, weight_decay: float) -> list[torch.optim.Optimizer]:
-    """Muon for the kernels of ``network``'s convolutions; AdamW for what else it has, such as
-    biases, normalisations and attention. Their learning rates are 0, to be set at every step."""
-    kernels = [
-        layer.weight
-        for layer in network.modules()
-        if isinstance(layer, nn.Conv2d) and layer.out_channels >= FEWEST_CHANNELS
-    ]
-    known = {id(kernel) for kernel in kernels}
-    others = [weight for weight in network.parameters() if id(weight) not in known]
-    return [
-        Muon(kernels, 0.0, weight_decay),
-        torch.optim.AdamW(others, 0.0, weight_decay=weight_decay, betas=(0.9, 0.98), fused=True),
-    ]

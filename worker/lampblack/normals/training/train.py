@@ -16,21 +16,17 @@ from torch import nn
 
 from ...errors import LampblackError, OutputError
 from ..card import NetworkCard, load_network
-from ..networks import build_network
+from ..networks import FigureNet, build_network
 from .checkpoint import Checkpoint, Progress
 from .example import save_examples
 from .figures import FigureCourse
-from .muon import optimisers
 from .normalisation import retake_statistics
+from .recipe import FIGURES, TILES, Recipe
 from .tiles import TileCourse
-
-FIGURES = ("figure-net",)
-"""Architectures that see whole figures; the others see tiles."""
 
 EXAMPLES = 8
 STATISTICS_ROUNDS = 20
 LOG_STEPS = 50
-WEIGHT_DECAY = 0.02
 _ANGLE_STEPS = 100
 """Steps over which the mean angle is told."""
 
@@ -38,11 +34,11 @@ _ANGLE_STEPS = 100
 @dataclass(frozen=True)
 class TrainingOptions:
     """``minutes`` of processor time of each of ``threads`` are the whole budget, over all runs:
-    a busy or suspended machine does not shorten it. Over the last ``decay`` of it the learning
-    rate falls to 0. The weights written are an average with a memory of ``1 / (1 - ema)`` steps.
-    ``sides`` are those of the canvases of whole figures; a run that begins from nothing sees
-    them on canvases of ``first_side``, at a third of the price, for ``first_share`` of its
-    budget. ``capacity`` examples are kept in memory."""
+    a busy or suspended machine does not shorten it. ``rate`` multiplies the learning rates of
+    the network's recipe. The weights written are an average with a memory of
+    ``1 / (1 - ema)`` steps. ``sides`` are those of the canvases of whole figures; a run that
+    begins from nothing sees them on canvases of ``first_side``, at a third of the price, for
+    ``first_share`` of its budget. ``capacity`` examples are kept in memory."""
 
     minutes: float = 60.0
     threads: int = 1
@@ -50,9 +46,8 @@ class TrainingOptions:
     sides: tuple[int, ...] = (160, 192, 256, 352)
     first_side: int = 128
     first_share: float = 0.4
-    learning_rate: float = 3e-3
+    rate: float = 1.0
     warm_up: int = 200
-    decay: float = 0.7
     ema: float = 0.998
     checkpoint_minutes: float = 3.0
     capacity: int = 2000
@@ -89,20 +84,21 @@ def train(
     network = _first_weights(card, begin_with).train()
     average = build_network(card.architecture)
     average.load_state_dict(network.state_dict())
-    steppers = optimisers(network, WEIGHT_DECAY)
+    whole = isinstance(network, FigureNet)
+    recipe = FIGURES if whole else TILES
+    steppers = recipe.optimisers(network)
     told: dict[str, object] = {
         "batch": options.batch,
         "seed": options.seed,
         "threads": options.threads,
     }
-    whole = card.architecture in FIGURES
     stages = [(1.0, options.sides)]
     if whole and not begin_with:
         stages.insert(0, (options.first_share, (options.first_side,)))
     if whole:
         told["canvas_sides"] = [sides for _, sides in stages]
     checkpoint = Checkpoint(output, network, average, steppers, replace(card, training=told))
-    run = _Run(network, average, steppers, checkpoint, options, report, checkpoint.load())
+    run = _Run(network, average, recipe, steppers, checkpoint, options, report, checkpoint.load())
     for share, sides in stages:
         until = 60 * options.minutes * share
         if run.progress.seconds < until:
@@ -120,11 +116,17 @@ def train(
 class _Run:
     network: nn.Module
     average: nn.Module
+    recipe: Recipe
     steppers: Sequence[torch.optim.Optimizer]
     checkpoint: Checkpoint
     options: TrainingOptions
     report: Callable[[Progress], None]
     progress: Progress
+
+    def __post_init__(self) -> None:
+        for stepper in self.steppers:
+            for group in stepper.param_groups:
+                group["highest"] = group["lr"]
 
     def go(self, course: FigureCourse | TileCourse, until: float) -> None:
         """Follow the course until so many seconds are spent, all in all."""
@@ -152,13 +154,18 @@ class _Run:
         nn.utils.clip_grad_norm_(self.network.parameters(), 1.0)
         for stepper in self.steppers:
             for group in stepper.param_groups:
-                group["lr"] = _learning_rate(self.options, progress)
+                group["lr"] = group["highest"] * self._rate()
             stepper.step()
         keep = min(self.options.ema, progress.step / (progress.step + 10))
         _follow(self.average, self.network, keep)
         progress.step += 1
         newest = max(1 / _ANGLE_STEPS, 1 / progress.step)
         progress.angle += (loss.angle - progress.angle) * newest
+
+    def _rate(self) -> float:
+        left = 1 - self.progress.seconds / (60 * self.options.minutes)
+        warm = min(1.0, (self.progress.step + 1) / self.options.warm_up)
+        return self.options.rate * warm * min(1.0, left / self.recipe.decay)
 
     def _keep(self, course: FigureCourse | TileCourse) -> None:
         see = partial(course.loss, self.average, self.options.batch)
@@ -181,13 +188,6 @@ def _first_weights(card: NetworkCard, begin_with: Sequence[Path]) -> nn.Module:
             )
         _follow(first, network, 1 - 1 / number)
     return first
-
-
-def _learning_rate(options: TrainingOptions, progress: Progress) -> float:
-    left = 1 - progress.seconds / (60 * options.minutes)
-    warm = min(1.0, (progress.step + 1) / options.warm_up)
-    falling = min(1.0, left / options.decay) if options.decay else 1.0
-    return options.learning_rate * warm * falling
 
 
 def _follow(average: nn.Module, network: nn.Module, keep: float) -> None:
