@@ -21,8 +21,9 @@ from ..dataset.triple import Triple
 
 RESCAN_SECONDS = 60
 FEWEST = 64
-RENEWED = 2
-"""Examples taken in with each batch: about what one loader makes meanwhile."""
+RENEWED = 8
+"""Examples taken in with each batch at most, if the loader has made as many: a new one teaches
+more than one that is seen again."""
 
 _PATIENCE_SECONDS = 30
 
@@ -56,7 +57,7 @@ class Stream(Generic[Example]):
                 f"{data} holds no data set.", "Make one with lampblack dataset build."
             )
         context = multiprocessing.get_context("spawn")
-        self._fresh: Queue[Example] = context.Queue(maxsize=8)
+        self._fresh: Queue[Example] = context.Queue(maxsize=2 * RENEWED)
         self._loader = context.Process(
             target=_load, args=(self._fresh, data, prepare, seed), daemon=True
         )
@@ -80,7 +81,7 @@ class Stream(Generic[Example]):
         self._loader.join()
 
     def take(self, size: int, rng: np.random.Generator) -> list[Example]:
-        """``size`` examples of one kind, drawn at random; a few new ones are taken in."""
+        """``size`` examples of one kind, drawn at random; new ones are taken in."""
         self._renew(RENEWED, rng)
         kinds = list(self._kept)
         counts = np.array([len(self._kept[kind]) for kind in kinds])
