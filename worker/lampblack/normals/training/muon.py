@@ -21,7 +21,7 @@ _ADAM_RMS = 0.2
 class Muon(torch.optim.Optimizer):
     """For weights of two and more dimensions, each taken as a matrix of its outputs.
 
-    Steps are as large as Adam's typically are (Liu 2025), so that both take one learning rate.
+    At one learning rate its steps are as large as Adam's typically are (Liu 2025).
     """
 
     def __init__(
