@@ -19,6 +19,7 @@ from .figure import (
     resize,
     shape_maps,
 )
+from .precision import fast_arithmetic
 
 
 def mean_vectors(
@@ -66,7 +67,7 @@ def figure_vectors(
         flipped[:, list(SIDEWAYS)] *= -1
         fine, coarse = torch.cat([fine, fine.flip(-1)]), torch.cat([coarse, flipped])
     last = torch.channels_last
-    with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+    with torch.inference_mode(), fast_arithmetic():
         vectors, _, _ = network(
             fine.contiguous(memory_format=last), coarse.contiguous(memory_format=last)
         )

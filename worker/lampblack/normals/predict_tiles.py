@@ -9,6 +9,7 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
+from .precision import fast_arithmetic
 from .tiles import TILE, TileSource, diagonal_grids
 
 PAPER_GRIDS = 20
@@ -49,7 +50,7 @@ def tile_vectors(
         batch = corners[start : start + _BATCH]
         tiles = torch.from_numpy(np.stack([source.cut(*corner) for corner in batch]))
         tiles = tiles.contiguous(memory_format=torch.channels_last)
-        with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+        with torch.inference_mode(), fast_arithmetic():
             predicted = network(tiles).float().permute(0, 2, 3, 1).numpy()
         for (row, column), vectors in zip(batch, predicted, strict=True):
             area = np.s_[row + TILE : row + 2 * TILE, column + TILE : column + 2 * TILE]

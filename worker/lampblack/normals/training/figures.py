@@ -15,6 +15,7 @@ from torch import nn
 
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
 from ..figure import COARSE, SIDEWAYS, canvas_for, coarse_maps, lay, resize, shape_maps
+from ..precision import fast_arithmetic
 from .example import Example, looked_at
 from .figure_loss import Batch, Loss, figure_loss
 from .stream import Stream
@@ -102,14 +103,14 @@ class FigureCourse:
     def loss(self, network: nn.Module, size: int) -> Loss:
         """What ``network`` makes of the next ``size`` figures."""
         batch = self._batch(size)
-        with torch.autocast("cpu", torch.bfloat16):
+        with fast_arithmetic():
             found = network(batch.fine, batch.coarse)
         return figure_loss(found, batch)
 
     def examples(self, network: nn.Module, size: int) -> list[Example]:
         """What ``network``, in evaluation mode, makes of ``size`` figures, to look at."""
         batch = self._batch(size)
-        with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+        with torch.inference_mode(), fast_arithmetic():
             vectors, _, _ = network(batch.fine, batch.coarse)
         return looked_at(batch.fine[:, 0], batch.fine[:, 1], batch.normals, vectors)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from ..dataset.triple import Triple
+from ..precision import fast_arithmetic
 from ..tiles import ALIGNMENT, TILE, TileSource
 from .example import Example, looked_at
 from .figure_loss import Loss, angles
@@ -78,7 +79,7 @@ class TileCourse:
         """What ``network`` makes of the next ``size`` tiles."""
         tiles, truth = self._batch(size)
         mask = tiles[:, 3:4]
-        with torch.autocast("cpu", torch.bfloat16):
+        with fast_arithmetic():
             predicted = network(tiles)
         with torch.no_grad():
             unit = nn.functional.normalize(predicted.float(), dim=1)
@@ -88,7 +89,7 @@ class TileCourse:
     def examples(self, network: nn.Module, size: int) -> list[Example]:
         """What ``network``, in evaluation mode, makes of ``size`` tiles, to look at."""
         tiles, truth = self._batch(size)
-        with torch.inference_mode(), torch.autocast("cpu", torch.bfloat16):
+        with torch.inference_mode(), fast_arithmetic():
             predicted = network(tiles)
         return looked_at(tiles[:, 0], tiles[:, 3], truth, predicted)
 

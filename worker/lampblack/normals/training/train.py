@@ -35,10 +35,11 @@ _ANGLE_STEPS = 100
 class TrainingOptions:
     """``minutes`` of processor time of each of ``threads`` are the whole budget, over all runs:
     a busy or suspended machine does not shorten it. ``rate`` multiplies the learning rates of
-    the network's recipe. The weights written are an average with a memory of
-    ``1 / (1 - ema)`` steps. ``sides`` are those of the canvases of whole figures; a run that
-    begins from nothing sees them on canvases of ``first_side``, at a third of the price, for
-    ``first_share`` of its budget. ``capacity`` examples are kept in memory."""
+    the network's recipe, which are reached after ``warm_up`` of the budget. The weights written
+    are an average with a memory of ``1 / (1 - ema)`` steps. ``sides`` are those of the canvases
+    of whole figures; a run that begins from nothing sees them on canvases of ``first_side``, at
+    a third of the price, for ``first_share`` of its budget. ``capacity`` examples are kept in
+    memory."""
 
     minutes: float = 60.0
     threads: int = 1
@@ -47,7 +48,7 @@ class TrainingOptions:
     first_side: int = 128
     first_share: float = 0.4
     rate: float = 1.0
-    warm_up: int = 200
+    warm_up: float = 0.03
     ema: float = 0.998
     checkpoint_minutes: float = 3.0
     capacity: int = 2000
@@ -163,9 +164,9 @@ class _Run:
         progress.angle += (loss.angle - progress.angle) * newest
 
     def _rate(self) -> float:
-        left = 1 - self.progress.seconds / (60 * self.options.minutes)
-        warm = min(1.0, (self.progress.step + 1) / self.options.warm_up)
-        return self.options.rate * warm * min(1.0, left / self.recipe.decay)
+        spent = self.progress.seconds / (60 * self.options.minutes)
+        warm = (spent + 1e-3) / self.options.warm_up
+        return self.options.rate * min(1.0, warm, (1 - spent) / self.recipe.decay)
 
     def _keep(self, course: FigureCourse | TileCourse) -> None:
         see = partial(course.loss, self.average, self.options.batch)

@@ -1,0 +1,20 @@
+"""The number format in which networks calculate: bf16 where the processor has it, else float32."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import torch
+
+
+@cache
+def fast_dtype() -> torch.dtype:
+    """bf16 if the processor multiplies it. Where it must be emulated (AVX2 alone: the processors
+    of most desktops) it is 8 times slower than float32 in prediction, 13 times in training."""
+    can = torch.cpu.get_capabilities()
+    return torch.bfloat16 if can.get("avx512_bf16") or can.get("amx_bf16") else torch.float32
+
+
+def fast_arithmetic() -> torch.autocast:
+    """A context in which convolutions and products calculate in ``fast_dtype``."""
+    return torch.autocast("cpu", torch.bfloat16, enabled=fast_dtype() is torch.bfloat16)
