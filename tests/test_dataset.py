@@ -215,6 +215,18 @@ def test_freestyle_draws_the_silhouette_where_it_is() -> None:
     assert ink[mask & (ndimage.distance_transform_edt(mask) > 5)].max() < 0.1
 
 
+@pytest.mark.cycles
+def test_a_freestyle_drawing_is_the_same_whatever_is_drawn_before_it() -> None:
+    placed = place(sphere_model(3), view_rotation(20, 10), 120)
+    trembling = placed, Stroke(width=3.0, wobble=2.0, seed=7)
+    (alone,) = draw_freestyle([trembling])
+    _, later = draw_freestyle([(placed, Stroke(width=5.0, wobble=1.0, seed=1)), trembling])
+    (other,) = draw_freestyle([(placed, Stroke(width=3.0, wobble=2.0, seed=8))])
+    assert alone is not None
+    assert np.array_equal(alone, later)
+    assert not np.array_equal(alone, other)
+
+
 def test_the_command_builds_a_described_data_set(models: Path, tmp_path: Path, run: Run) -> None:
     folder = tmp_path / "data"
     command = ("dataset", "build", "--models", models, "-o", folder, "--views", 1)

@@ -116,7 +116,7 @@ def _ink(scene: Any, job: dict[str, Any]) -> None:
     if job["wobble"] > 0:
         tremor = style.geometry_modifiers.new("tremor", "PERLIN_NOISE_1D")
         tremor.amplitude, tremor.frequency = float(job["wobble"]), 8
-        tremor.seed = int(job["seed"]) % 1000
+        tremor.seed = int(job["seed"])
 
 
 if __name__ == "__main__":

@@ -33,7 +33,8 @@ LARGE_SOURCE = 60
 OCCLUSION_STEP = 0.012
 """Depth jump that occludes, as a share of the figure."""
 
-CHUNK = 16
+CHUNK = 64
+"""Views built together at most: those that Freestyle draws share one start of Blender."""
 _LEAST_SHARE = 0.02
 
 
@@ -96,8 +97,8 @@ def build_dataset(
     there = done = len(wanted) - len(missing)
     progress(done, len(wanted))
     with closing(_built(missing, output, options)) as built:
-        for made in built:
-            done, there = min(done + CHUNK, len(wanted)), there + made
+        for tried, made in built:
+            done, there = done + tried, there + made
             progress(done, len(wanted))
     return there
 
@@ -105,15 +106,18 @@ def build_dataset(
 _Task = tuple[Path, int]
 
 
-def _built(tasks: list[_Task], output: Path, options: DatasetOptions) -> Generator[int, None, None]:
-    """Build by the chunk, for Blender is slow to start; yields how many entries each gave."""
-    chunks = [tasks[start : start + CHUNK] for start in range(0, len(tasks), CHUNK)]
+def _built(
+    tasks: list[_Task], output: Path, options: DatasetOptions
+) -> Generator[tuple[int, int], None, None]:
+    """Build by the chunk; yields of each how many entries were tried and how many it gave."""
+    size = max(1, min(CHUNK, len(tasks) // options.workers))
+    chunks = [tasks[start : start + size] for start in range(0, len(tasks), size)]
     build = partial(_build, output=output, options=options)
     if options.workers == 1:
-        yield from map(build, chunks)
+        yield from zip(map(len, chunks), map(build, chunks), strict=True)
         return
     with multiprocessing.get_context("spawn").Pool(options.workers, _stand_back) as pool:
-        yield from pool.imap(build, chunks)
+        yield from zip(map(len, chunks), pool.imap(build, chunks), strict=True)
 
 
 def _stand_back() -> None:
@@ -122,15 +126,28 @@ def _stand_back() -> None:
 
 
 def _build(tasks: list[_Task], output: Path, options: DatasetOptions) -> int:
-    found = [(task, drawn) for task in tasks if (drawn := _draw(*task, options)) is not None]
-    jobs = [drawn.freestyle for _, drawn in found if drawn.freestyle is not None]
-    inked = iter(draw_freestyle(jobs) if jobs else [])
-    for (path, index), drawn in found:
-        if drawn.freestyle is not None and (ink := next(inked)) is not None:
-            drawn.lines[0] = ink * drawn.view.mask
-        triple = Triple.of(drawn.view, drawn.lines, OCCLUSION_STEP * options.resolution)
-        triple.save(entry_path(output, path, index))
-    return len(found)
+    made, styled = 0, []
+    for path, index in tasks:
+        drawn = _draw(path, index, options)
+        if drawn is None:
+            continue
+        made += 1
+        where = entry_path(output, path, index)
+        if drawn.freestyle is None:
+            _save(drawn, where, options)
+        else:
+            styled.append((drawn, drawn.freestyle, where))
+    if styled:
+        inked = draw_freestyle([freestyle for _, freestyle, _ in styled])
+        for (drawn, _, where), ink in zip(styled, inked, strict=True):
+            if ink is not None:
+                drawn.lines[0] = ink * drawn.view.mask
+            _save(drawn, where, options)
+    return made
+
+
+def _save(drawn: _Drawn, path: Path, options: DatasetOptions) -> None:
+    Triple.of(drawn.view, drawn.lines, OCCLUSION_STEP * options.resolution).save(path)
 
 
 @dataclass(frozen=True)

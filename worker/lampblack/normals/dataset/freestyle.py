@@ -22,12 +22,13 @@ SECONDS_A_VIEW = 120
 @dataclass(frozen=True)
 class Stroke:
     """How Freestyle inks: ``width`` and ``wobble`` in pixels; lines that taper; creases of more
-    than ``crease`` degrees, 0 for none."""
+    than ``crease`` degrees, 0 for none; ``seed`` of the wobble, 0 to 999."""
 
     width: float = 3.0
     taper: bool = True
     wobble: float = 0.0
     crease: float = 0.0
+    seed: int = 0
 
     @staticmethod
     def random(rng: np.random.Generator, figure_px: int) -> Stroke:
@@ -37,6 +38,7 @@ class Stroke:
             taper=bool(rng.random() < 0.7),
             wobble=float(rng.choice([0.0, 0.0, rng.uniform(0.5, 2.0)])),
             crease=float(rng.choice([0.0, rng.uniform(60, 110)])),
+            seed=int(rng.integers(1000)),
         )
 
 
@@ -59,7 +61,7 @@ def draw_freestyle(jobs: list[tuple[Placed, Stroke]]) -> list[NDArray[np.float32
                 taper=int(stroke.taper),
                 wobble=stroke.wobble,
                 crease=stroke.crease,
-                seed=index,
+                seed=stroke.seed,
             )
         try:
             subprocess.run(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -50,7 +50,9 @@ def drawings(
             hands.append(rng)
         inked: list[NDArray[np.float32] | None] = [None] * views
         if lines == "freestyle":
-            strokes = [Stroke.random(rng, figure_px) for rng in hands]
+            strokes = [
+                replace(Stroke.random(rng, figure_px), seed=side) for side, rng in enumerate(hands)
+            ]
             inked = draw_freestyle(list(zip(placed, strokes, strict=True)))
         for figure, rng, ink in zip(placed, hands, inked, strict=True):
             view = trace_placed(figure)

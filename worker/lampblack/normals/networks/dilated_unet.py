@@ -39,6 +39,11 @@ class DilatedUNet(nn.Module):
                 layer.weight.mul_(0.5)  # type: ignore[operator]  # keeps the residual sum near unit variance
             self.out.weight.mul_(0.2)
 
+    @property
+    def heads(self) -> tuple[nn.Conv2d]:
+        """The last layer."""
+        return (self.out,)
+
     def forward(self, tiles: Tensor) -> Tensor:
         """(B, 4, 256, 256) float, see ``tiles.py`` -> (B, 3, 256, 256) normals, not yet unit."""
         half = self.leaky(self.down1(tiles))

@@ -35,6 +35,11 @@ class StridedUNet(nn.Module):
         with torch.no_grad():
             self.out.weight.mul_(0.2)
 
+    @property
+    def heads(self) -> tuple[nn.Conv2d]:
+        """The last layer."""
+        return (self.out,)
+
     def forward(self, tiles: Tensor) -> Tensor:
         """(B, 4, 256, 256) float -> (B, 3, 256, 256) unit normals, 0 off the mask."""
         drawing, mask = tiles[:, :3], tiles[:, 3:4]

@@ -66,4 +66,5 @@ def orthogonal(matrices: Tensor) -> Tensor:
         through = factor @ through
         if left:
             gram = gram @ (factor @ factor)
-    return through @ x
+    found: Tensor = through @ x
+    return found

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import cast
 
 import torch
 from torch import nn
@@ -21,7 +22,7 @@ from .checkpoint import Checkpoint, Progress
 from .example import save_examples
 from .figures import FigureCourse
 from .normalisation import retake_statistics
-from .recipe import FIGURES, TILES, Recipe
+from .recipe import DECAY, Network, optimisers
 from .tiles import TileCourse
 
 EXAMPLES = 8
@@ -35,7 +36,7 @@ _ANGLE_STEPS = 100
 class TrainingOptions:
     """``minutes`` of processor time of each of ``threads`` are the whole budget, over all runs:
     a busy or suspended machine does not shorten it. ``rate`` multiplies the learning rates of
-    the network's recipe, which are reached after ``warm_up`` of the budget. The weights written
+    ``recipe``, which are reached after ``warm_up`` of the budget. The weights written
     are an average with a memory of ``1 / (1 - ema)`` steps. ``sides`` are those of the canvases
     of whole figures; a run that begins from nothing sees them on canvases of ``first_side``, at
     a third of the price, for ``first_share`` of its budget. ``capacity`` examples are kept in
@@ -86,8 +87,7 @@ def train(
     average = build_network(card.architecture)
     average.load_state_dict(network.state_dict())
     whole = isinstance(network, FigureNet)
-    recipe = FIGURES if whole else TILES
-    steppers = recipe.optimisers(network)
+    steppers = optimisers(cast(Network, network))
     told: dict[str, object] = {
         "batch": options.batch,
         "seed": options.seed,
@@ -99,7 +99,7 @@ def train(
     if whole:
         told["canvas_sides"] = [sides for _, sides in stages]
     checkpoint = Checkpoint(output, network, average, steppers, replace(card, training=told))
-    run = _Run(network, average, recipe, steppers, checkpoint, options, report, checkpoint.load())
+    run = _Run(network, average, steppers, checkpoint, options, report, checkpoint.load())
     for share, sides in stages:
         until = 60 * options.minutes * share
         if run.progress.seconds < until:
@@ -117,7 +117,6 @@ def train(
 class _Run:
     network: nn.Module
     average: nn.Module
-    recipe: Recipe
     steppers: Sequence[torch.optim.Optimizer]
     checkpoint: Checkpoint
     options: TrainingOptions
@@ -166,7 +165,7 @@ class _Run:
     def _rate(self) -> float:
         spent = self.progress.seconds / (60 * self.options.minutes)
         warm = (spent + 1e-3) / self.options.warm_up
-        return self.options.rate * min(1.0, warm, (1 - spent) / self.recipe.decay)
+        return self.options.rate * min(1.0, warm, (1 - spent) / DECAY)
 
     def _keep(self, course: FigureCourse | TileCourse) -> None:
         see = partial(course.loss, self.average, self.options.batch)
