@@ -9,8 +9,8 @@ import torch
 
 @cache
 def fast_dtype() -> torch.dtype:
-    """bf16 if the processor multiplies it. Where it must be emulated (AVX2 alone: the processors
-    of most desktops) it is 8 times slower than float32 in prediction, 13 times in training."""
+    """bf16 if the processor multiplies it. Where it must be emulated, as with AVX2 alone, it is 5
+    to 6 times slower than float32 in prediction and 11 to 14 times in training."""
     can = torch.cpu.get_capabilities()
     return torch.bfloat16 if can.get("avx512_bf16") or can.get("amx_bf16") else torch.float32
 
