@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 import torch
 
-from lampblack.normals.precision import fast_arithmetic, fast_dtype
+from lampblack.normals.precision import fast_arithmetic, has_bf16
 from lampblack.normals.predict import NormalPredictor
 
 
 @pytest.fixture(autouse=True)
 def _forgotten() -> Iterator[None]:
-    fast_dtype.cache_clear()
+    has_bf16.cache_clear()
     yield
-    fast_dtype.cache_clear()
+    has_bf16.cache_clear()
 
 
 def on_a_processor(patch: pytest.MonkeyPatch, **has: bool) -> None:
-    fast_dtype.cache_clear()
+    has_bf16.cache_clear()
     patch.setattr(torch.cpu, "get_capabilities", lambda: {"avx2": True, "avx512_f": True} | has)
 
 
