@@ -29,7 +29,7 @@ def test_singular_values_are_brought_near_one_and_directions_kept(
     assert found.dtype == torch.float32
     turned = u.mT @ found @ v
     reached = turned.diagonal(dim1=1, dim2=2)
-    # What is a hundredth of the whole and more; bf16 keeps three digits.
+    # What is a hundredth of the whole and more.
     assert reached[:, values > 0.01 * values.norm()].min() > 0.55
     assert reached.max() < 1.3
     assert (turned - torch.diag_embed(reached)).abs().max() < 0.05
