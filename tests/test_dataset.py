@@ -45,15 +45,17 @@ def models(tmp_path: Path) -> Path:
     return folder
 
 
+@pytest.mark.parametrize("freestyle", [0, pytest.param(0.5, marks=pytest.mark.cycles)])
 def test_a_data_set_is_the_same_however_often_it_is_interrupted(
-    models: Path, tmp_path: Path
+    models: Path, tmp_path: Path, freestyle: float
 ) -> None:
+    options = replace(OPTIONS, freestyle=freestyle)
     once, twice = tmp_path / "once", tmp_path / "twice"
-    assert build_dataset(models, once, None, OPTIONS) == 4
-    build_dataset(models, twice, None, OPTIONS)
-    removed = sorted(twice.rglob("*.npz"))[1]
-    removed.unlink()
-    assert build_dataset(models, twice, None, OPTIONS) == 4
+    assert build_dataset(models, once, None, options) == 4
+    build_dataset(models, twice, None, options)
+    for removed in sorted(twice.rglob("*.npz"))[:3]:
+        removed.unlink()
+    assert build_dataset(models, twice, None, options) == 4
     for a, b in zip(sorted(once.rglob("*.npz")), sorted(twice.rglob("*.npz")), strict=True):
         first, second = Triple.load(a), Triple.load(b)
         assert np.array_equal(first.drawings, second.drawings)
