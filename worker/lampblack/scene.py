@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, TypeVar, get_type_hints
@@ -224,7 +225,20 @@ def scene_schema() -> dict[str, Any]:
     schema = msgspec.json.schema(Scene)
     for definition in schema["$defs"].values():
         definition["properties"].pop("extra", None)
+        normalize_schema(definition)
     return schema
+
+
+def normalize_schema(definition: dict[str, Any]) -> None:
+    """Make one object's schema the same, in place, whichever release of msgspec wrote it.
+
+    Some leave docstrings indented, and some leave out a default that is an empty mapping.
+    """
+    if "description" in definition:
+        definition["description"] = inspect.cleandoc(definition["description"])
+    for member in definition.get("properties", {}).values():
+        if member.get("default") == {}:
+            del member["default"]
 
 
 Node = TypeVar("Node")

@@ -5,7 +5,6 @@ Run as ``python -m lampblack.protocol.documents FOLDER``.
 
 from __future__ import annotations
 
-import inspect
 import json
 import sys
 from collections.abc import Iterator
@@ -14,7 +13,7 @@ from typing import Any
 
 import msgspec
 
-from ..scene import scene_schema
+from ..scene import normalize_schema, scene_schema
 from .connection import Connection
 from .errors import CATALOGUE
 from .messages import BY_SENDER, MESSAGES
@@ -31,6 +30,8 @@ def message_schema() -> dict[str, Any]:
     definitions = {
         name: definitions[name] for name in definitions if name not in scene_schema()["$defs"]
     }
+    for definition in definitions.values():
+        normalize_schema(definition)
     for kind in MESSAGES.values():
         definition = definitions[kind.__name__]
         definition["properties"] = {
@@ -51,11 +52,9 @@ def message_schema() -> dict[str, Any]:
 
 def connection_schema() -> dict[str, Any]:
     """JSON Schema of the connection file."""
-    schema = msgspec.json.schema(Connection)
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **schema["$defs"]["Connection"],
-    }
+    definition = msgspec.json.schema(Connection)["$defs"]["Connection"]
+    normalize_schema(definition)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **definition}
 
 
 def error_catalogue() -> str:
@@ -99,7 +98,7 @@ def connection_table() -> str:
 
 
 def _table(definition: dict[str, Any]) -> Iterator[str]:
-    yield from (inspect.cleandoc(definition["description"]).replace("``", "`"), "")
+    yield from (definition["description"].replace("``", "`"), "")
     fields = {
         name: field
         for name, field in definition["properties"].items()
