@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from lampblack.colour import linear, srgb
 from lampblack.composite import composite
 from lampblack.composite.borders import blends
-from lampblack.composite.colour import linear, srgb
 from lampblack.composite.light_sheet import Light, light_sheet
 from lampblack.composite.sheet import premultiplied, sheet_of
 from lampblack.drawing import Drawing, Palette

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lampblack.composite.colour import hex_linear, linear, srgb
+from lampblack.colour import hex_linear, linear, srgb
 from lampblack.composite.composite import composite
 from lampblack.composite.resample import Band, enlarge
 from lampblack.drawing.drawing import Drawing

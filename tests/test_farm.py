@@ -25,7 +25,7 @@ from lampblack.errors import LampblackError
 from lampblack.farm.cluster import check_address, light_group
 from lampblack.farm.tasks import MAX_TASKS, cut_into_tasks
 from lampblack.finals.order import Order
-from lampblack.finals.shot import ShotFrame
+from lampblack.shot import ShotFrame
 from projects import document, image, layer, png, write_project
 
 BIN = Path(sys.executable).parent

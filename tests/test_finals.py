@@ -18,11 +18,10 @@ import pytest
 from numpy.typing import NDArray
 
 from conftest import Run, draw_ball, files
-from lampblack.composite.colour import linear
+from lampblack.colour import linear
 from lampblack.drawing import load_picture, save_picture, take_apart
 from lampblack.errors import LampblackError, RenderError
 from lampblack.finals.order import Order
-from lampblack.finals.shot import ShotFrame
 from lampblack.finals.targets import Targets
 from lampblack.pipeline import Pipeline
 from lampblack.render import LightPasses, Passes, RenderChild
@@ -37,6 +36,7 @@ from lampblack.scene import (
     default_scene,
     encode_scene,
 )
+from lampblack.shot import ShotFrame
 from projects import document, image, layer, png, write_project
 
 Floats = NDArray[np.float32]

@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from conftest import draw_ball
+from lampblack.colour import hex_linear
 from lampblack.composite import composite
-from lampblack.composite.colour import hex_linear
 from lampblack.composite.light_sheet import Light, add_up, light_sheet
 from lampblack.composite.shadow import FAINT
 from lampblack.composite.sheet import premultiplied, sheet_of

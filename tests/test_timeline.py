@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lampblack.composite.colour import hex_linear
+from lampblack.colour import hex_linear
 from lampblack.errors import SceneError
 from lampblack.scene import (
     MAX_KEYS,

@@ -13,7 +13,7 @@ double mix(double a, double b, double share)
     return a + share * (b - a);
 }
 
-/// IEC 61966-2-1, in single precision as composite/colour.py.
+/// IEC 61966-2-1, in single precision as colour.py.
 float linear(int channel)
 {
     const auto s = static_cast<float>(channel / 255.0);

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from .composite.colour import hex_linear, srgb
+from .colour import hex_linear, srgb
 from .scene import AreaLight, Floor, FloorKey, LightKey, Scene
 
 Key = TypeVar("Key", LightKey, FloorKey)

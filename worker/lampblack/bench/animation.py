@@ -9,9 +9,9 @@ from tempfile import TemporaryDirectory
 from ..cache import ArrayCache
 from ..finals.light import light_frames
 from ..finals.order import Order, open_order
-from ..finals.shot import by_drawing
 from ..pipeline import Pipeline
 from ..render import Passes, RenderChild, RenderRequest
+from ..shot import by_drawing
 from .memory import peak_gib, processor_seconds
 
 

@@ -14,9 +14,9 @@ from ..drawing.contact_sheet import contact_sheet
 from ..errors import LampblackError
 from ..finals.light import Outcome, light_frames
 from ..finals.order import OpenOrder, Order, open_order
-from ..finals.shot import ShotFrame
 from ..normals.predict import DEFAULT_GRIDS
 from ..pipeline import Pipeline
+from ..shot import ShotFrame
 from .console import EXIT_FAILED, EXIT_UNLIT, console, print_error, progress_bar
 from .options import (
     BackgroundOption,

@@ -18,8 +18,8 @@ from ..atomic import atomic_file
 from ..drawing import take_apart
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
 from ..finals.order import OpenShot, Order, open_shot
-from ..finals.shot import by_drawing
 from ..scene import Canvas, Material, default_scene, encode_scene
+from ..shot import by_drawing
 from .console import progress_bar
 from .options import (
     InkOption,

@@ -14,12 +14,12 @@ from ..atomic import atomic_file
 from ..drawing import Drawing, save_picture
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
 from ..finals.order import OpenShot, Order, open_shot
-from ..finals.shot import ShotFrame, by_drawing
 from ..finals.surroundings import Surroundings
 from ..finals.targets import Targets
 from ..normals.predict import DEFAULT_GRIDS
 from ..normals.temporal.steady import Beside
 from ..pipeline import Pipeline, PipelineOptions
+from ..shot import ShotFrame, by_drawing
 from ..surface import save_mesh
 from .console import EXIT_FAILED, print_error, progress_bar
 from .options import (

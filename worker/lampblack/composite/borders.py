@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..colour import hex_linear
 from ..drawing.morphology import highest, lowest
 from ..drawing.palette import Palette
-from .colour import hex_linear
 
 _LEAST = 0.002
 _ASTRAY = 0.05

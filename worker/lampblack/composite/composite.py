@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..colour import hex_linear, linear, srgb
 from ..drawing.drawing import Drawing
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene
 from .borders import blends, swatch_albedos
-from .colour import hex_linear, linear, srgb
 from .resample import Band, enlarge
 from .shadow import shade_background
 

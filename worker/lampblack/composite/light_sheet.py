@@ -11,10 +11,10 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ..colour import linear, srgb
 from ..drawing.palette import Palette
 from ..scene import Scene, default_scene
 from .borders import swatch_albedos
-from .colour import linear, srgb
 from .composite import KNEE, ROUNDING
 from .resample import Band, enlarge
 from .sheet import Box, Sheet

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..colour import linear, srgb
 from ..render.passes import LightPasses
-from .colour import linear, srgb
 from .resample import Band, enlarge
 
 FAINT = np.float32(1e-3)  # no light is no shadow, rather than 0 / 0

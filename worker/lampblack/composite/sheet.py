@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from ..colour import linear
 from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
 from .borders import blends
-from .colour import linear
 
 Bytes = NDArray[np.uint8]
 Box = tuple[float, float, float, float]

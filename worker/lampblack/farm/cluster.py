@@ -21,8 +21,8 @@ from ..cache import ArrayCache, user_cache_folder
 from ..errors import LampblackError, OutputError
 from ..finals.light import Listener, Outcome, light_frames
 from ..finals.order import OpenOrder, Order, open_order
-from ..finals.shot import ShotFrame, by_drawing
 from ..pipeline import Pipeline, PipelineOptions
+from ..shot import ShotFrame, by_drawing
 
 CONNECT_SECONDS = 30
 

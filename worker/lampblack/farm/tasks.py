@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..errors import LampblackError
-from ..finals.shot import ShotFrame, by_drawing
+from ..shot import ShotFrame, by_drawing
 
 MAX_TASKS = 1024
 """As many as an OpenJD task parameter may have values."""

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import look_through
-from ..composite.colour import linear
+from ..colour import linear
 from ..composite.composite import composite_unrounded, figure_light, weigh
 from ..composite.resample import Band
 from ..composite.shadow import floor_ratio
 from ..drawing import Drawing
 from ..render import Passes
 from ..scene import MAX_LIGHTS, Scene
-from .shot import Shot, ShotFrame
+from ..shot import Shot, ShotFrame
 
 Floats = NDArray[np.float32]
 

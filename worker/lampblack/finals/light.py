@@ -20,12 +20,12 @@ from ..atomic import atomic_path
 from ..composite import composite
 from ..errors import LampblackError, LampblackWarning, OutputError, RenderError
 from ..pipeline import Pipeline
+from ..shot import ShotFrame
 from .ahead import ahead
 from .exr import save_exr
 from .layers import Layers, make_layers, seen_layers
 from .order import OpenOrder
 from .png import save_png
-from .shot import ShotFrame
 from .work import Work, plan
 
 ATTEMPTS = 2

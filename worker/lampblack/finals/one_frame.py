@@ -9,9 +9,9 @@ from ..errors import LampblackError
 from ..normals.temporal.steady import Beside
 from ..pipeline import Pipeline
 from ..scene import Canvas, Scene
+from ..shot import ShotFrame
 from ..timeline import scene_at
 from .order import OpenShot
-from .shot import ShotFrame
 from .surroundings import Surroundings
 
 

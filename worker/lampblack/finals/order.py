@@ -16,8 +16,8 @@ from ..project import is_project, read_project
 from ..project.shot import ProjectShot
 from ..project.stack import Role, roles_of
 from ..scene import Scene
+from ..shot import Shot, ShotFrame
 from .pictures import PictureShot
-from .shot import Shot, ShotFrame
 from .staging import QualityLevel, Staging, read_scene
 from .targets import Kind, Targets
 

@@ -14,7 +14,7 @@ from ..cache import digest
 from ..camera import IDENTITY, Affine
 from ..drawing import Frame, load_picture
 from ..scene import Canvas, Scene
-from .shot import Cel, Picture, ShotFrame
+from ..shot import Cel, Picture, ShotFrame
 
 Sample = TypeVar("Sample", np.uint8, np.float32)
 

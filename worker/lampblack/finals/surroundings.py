@@ -11,7 +11,7 @@ from ..normals.temporal.miniature import Miniature
 from ..normals.temporal.neighbours import Names, neighbours
 from ..normals.temporal.steady import REACH, Around, Beside
 from ..pipeline import Pipeline
-from .shot import Shot, ShotFrame
+from ..shot import Shot, ShotFrame
 
 _KEPT = 4 * REACH
 _OPEN = REACH + 1

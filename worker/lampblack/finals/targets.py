@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from ..errors import LampblackError
+from ..shot import ShotFrame
 from .exr import exr_stamp
 from .png import png_stamp
-from .shot import ShotFrame
 
 Kind = Literal["png", "exr"]
 

@@ -18,9 +18,9 @@ from ..normals.card import shipped_weights
 from ..pipeline import Pipeline
 from ..render import Passes, Surface
 from ..scene import Canvas, Scene, encode_scene
+from ..shot import Cel, Picture, ShotFrame, by_drawing
 from ..timeline import scene_at
 from .order import OpenOrder
-from .shot import Cel, Picture, ShotFrame, by_drawing
 from .surroundings import Surroundings
 
 Floats = NDArray[np.float32]

@@ -15,19 +15,10 @@ from ..drawing import read_picture
 from ..errors import DrawingError, ProjectError
 from .archive import Archive
 from .document import Key, Layer
+from .region import Region
 from .vector import PALETTE, VectorPictures
 
 Picture = NDArray[np.uint8]
-
-
-@dataclass(frozen=True)
-class Region:
-    """A stretch of the canvas, canvas pixels; it may begin before the canvas does."""
-
-    left: int
-    top: int
-    width: int
-    height: int
 
 
 @dataclass

@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 from ..camera import Affine, look_through, scene_in_view
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import ProjectError
-from ..finals.shot import Cel, ShotFrame
 from ..scene import Canvas, Scene
+from ..shot import Cel, ShotFrame
 from .archive import Archive
 from .document import Camera, Project
-from .paint import LayerPainter, Picture, Region
+from .paint import LayerPainter, Picture
+from .region import Region
 from .stack import Roles, stack_layers
 from .vector import VectorPictures
 

@@ -10,7 +10,6 @@ import weakref
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
@@ -20,9 +19,7 @@ from ..drawing import load_picture
 from ..errors import ProjectError
 from .archive import Archive
 from .document import Key, Layer
-
-if TYPE_CHECKING:
-    from .paint import Region
+from .region import Region
 
 PROGRAM = "pencil2d"
 PALETTE = "palette.xml"

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..composite.colour import hex_linear
+from ..colour import hex_linear
 from ..scene import AreaLight
 from .stage import AMBIENT_SHEEN, Stage
 from .wire import SaveBlend

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..composite.colour import linear
+from ..colour import linear
 from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
 from ..scene import AreaLight, Canvas, Floor, Scene

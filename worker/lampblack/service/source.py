@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import scene_in_view
-from ..composite.colour import hex_linear
+from ..colour import hex_linear
 from ..composite.sheet import Box
 from ..render import Expose
 from ..scene import AreaLight, Canvas, Floor

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .compiled import compiled
+from ..compiled import compiled
 from .multigrid import Graph, Multigrid, apply_laplacian
 
 TOLERANCE = 1e-3

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ...surface.compiled import compiled
+from ...compiled import compiled
 from .sample import sampled
 
 Planes = NDArray[np.float32]

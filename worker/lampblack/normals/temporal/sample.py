@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...surface.compiled import compiled
+from ...compiled import compiled
 
 Planes = NDArray[np.float32]
 

@@ -9,8 +9,8 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..camera import Affine
-from ..scene import Canvas, Scene
+from .camera import Affine
+from .scene import Canvas, Scene
 
 Picture = NDArray[np.uint8]
 Sample = TypeVar("Sample", np.uint8, np.float32)
