@@ -14,17 +14,17 @@ from scipy import ndimage
 
 from conftest import Run
 from lampblack.errors import LampblackError
-from lampblack.normals.dataset.anatomy.clay import Clay
-from lampblack.normals.dataset.anatomy.turned import turned
-from lampblack.normals.dataset.build import DatasetOptions, build_dataset, entries
-from lampblack.normals.dataset.creatures import creature
-from lampblack.normals.dataset.deform import deformed
-from lampblack.normals.dataset.freestyle import Stroke, draw_freestyle
-from lampblack.normals.dataset.gbuffer import place, trace, trace_placed, view_rotation
-from lampblack.normals.dataset.models import Model
-from lampblack.normals.dataset.smooth import smoothed
-from lampblack.normals.dataset.triple import BEHIND, IN_FRONT, Triple, occlusion_edges
-from lampblack.normals.dataset.viewpoints import viewpoint
+from lampblack_research.dataset.anatomy.clay import Clay
+from lampblack_research.dataset.anatomy.turned import turned
+from lampblack_research.dataset.build import DatasetOptions, build_dataset, entries
+from lampblack_research.dataset.creatures import creature
+from lampblack_research.dataset.deform import deformed
+from lampblack_research.dataset.freestyle import Stroke, draw_freestyle
+from lampblack_research.dataset.gbuffer import place, trace, trace_placed, view_rotation
+from lampblack_research.dataset.models import Model
+from lampblack_research.dataset.smooth import smoothed
+from lampblack_research.dataset.triple import BEHIND, IN_FRONT, Triple, occlusion_edges
+from lampblack_research.dataset.viewpoints import viewpoint
 
 OPTIONS = DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
 

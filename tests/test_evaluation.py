@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from lampblack.normals.evaluation.evaluate import PEERS, evaluate
-from lampblack.normals.evaluation.laigter import laigter_normals
-from lampblack.normals.evaluation.lumo_mixed import lumo_mixed_normals
-from lampblack.normals.evaluation.metrics import bootstrap, means, measure
 from lampblack.normals.silhouette import flat_normals, lumo_normals
+from lampblack_research.evaluation.evaluate import PEERS, evaluate
+from lampblack_research.evaluation.laigter import laigter_normals
+from lampblack_research.evaluation.lumo_mixed import lumo_mixed_normals
+from lampblack_research.evaluation.metrics import bootstrap, means, measure
 
 Image = NDArray[np.float32]
 

@@ -11,9 +11,9 @@ from torch import nn
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard
 from lampblack.normals.networks import build_network
-from lampblack.normals.training.checkpoint import Checkpoint, Progress
-from lampblack.normals.training.muon import Muon, orthogonal
-from lampblack.normals.training.recipe import optimisers
+from lampblack_research.training.checkpoint import Checkpoint, Progress
+from lampblack_research.training.muon import Muon, orthogonal
+from lampblack_research.training.recipe import optimisers
 
 
 @pytest.mark.parametrize("shape", [(3, 16, 16), (2, 24, 200), (1, 224, 2016)])

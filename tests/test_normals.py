@@ -9,9 +9,6 @@ import trimesh
 from numpy.typing import NDArray
 
 from lampblack.normals.card import NetworkCard, load_network, shipped_weights
-from lampblack.normals.dataset.gbuffer import MARGIN, trace, view_rotation
-from lampblack.normals.dataset.linework import Hand, draw_lines
-from lampblack.normals.dataset.models import Model
 from lampblack.normals.figure import MARGIN as CANVAS_MARGIN
 from lampblack.normals.figure import canvas_for, canvases, lay
 from lampblack.normals.networks import DilatedUNet, FigureNet, StridedUNet, build_network
@@ -20,7 +17,10 @@ from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.predict_figure import figure_vectors, mean_vectors
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
-from lampblack.normals.training.tiles import normal_loss
+from lampblack_research.dataset.gbuffer import MARGIN, trace, view_rotation
+from lampblack_research.dataset.linework import Hand, draw_lines
+from lampblack_research.dataset.models import Model
+from lampblack_research.training.tiles import normal_loss
 
 Image = NDArray[np.float32]
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from lampblack.normals.training.stretch import linear_stretch, random_stretch, stretched
+from lampblack_research.training.stretch import linear_stretch, random_stretch, stretched
 
 Image = NDArray[np.float32]
 

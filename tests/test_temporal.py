@@ -12,13 +12,13 @@ from scipy import ndimage
 
 from conftest import Run, draw_ball
 from lampblack.drawing import save_picture
-from lampblack.normals.temporal.flicker import FlickerMeter
 from lampblack.normals.temporal.flow import dense_flow
 from lampblack.normals.temporal.miniature import Miniature, miniature
 from lampblack.normals.temporal.neighbours import neighbours
 from lampblack.normals.temporal.registration import places_in, rigid_registration
 from lampblack.normals.temporal.rigid import Motion, rigid_motion
 from lampblack.normals.temporal.steady import ALONE, Around, Steadier
+from lampblack_research.evaluation.flicker import FlickerMeter
 
 Image = NDArray[np.float32]
 SIZE = 200

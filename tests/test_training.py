@@ -19,18 +19,18 @@ from PIL import Image
 
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard, load_network, save_network, shipped_weights
-from lampblack.normals.dataset.build import DatasetOptions, build_dataset
-from lampblack.normals.dataset.models import find_models, load_model
-from lampblack.normals.dataset.triple import Triple
 from lampblack.normals.figure import LUMO
 from lampblack.normals.networks import build_network
-from lampblack.normals.training.checkpoint import Progress
-from lampblack.normals.training.curve import SIZE
-from lampblack.normals.training.figure_loss import Batch, angles
-from lampblack.normals.training.figures import FigureCourse, figure_of, sample
-from lampblack.normals.training.normalisation import retake_statistics
-from lampblack.normals.training.tiles import view_of
-from lampblack.normals.training.train import TrainingOptions, train
+from lampblack_research.dataset.build import DatasetOptions, build_dataset
+from lampblack_research.dataset.models import find_models, load_model
+from lampblack_research.dataset.triple import Triple
+from lampblack_research.training.checkpoint import Progress
+from lampblack_research.training.curve import SIZE
+from lampblack_research.training.figure_loss import Batch, angles
+from lampblack_research.training.figures import FigureCourse, figure_of, sample
+from lampblack_research.training.normalisation import retake_statistics
+from lampblack_research.training.tiles import view_of
+from lampblack_research.training.train import TrainingOptions, train
 
 
 @pytest.fixture
@@ -134,7 +134,7 @@ def test_canvases_of_every_side_take_turns_and_large_ones_make_smaller_batches(d
 def test_the_loader_of_a_killed_run_ends(data: Path) -> None:
     program = (
         "import sys, time; from pathlib import Path\n"
-        "from lampblack.normals.training.figures import FigureCourse\n"
+        "from lampblack_research.training.figures import FigureCourse\n"
         "if __name__ == '__main__':\n"
         "    with FigureCourse(Path(sys.argv[1]), (64,), 0, 4) as course:\n"
         "        course._batch(1)\n"
@@ -186,7 +186,7 @@ def test_a_run_from_nothing_begins_on_small_canvases(
 ) -> None:
     seconds = itertools.count()
     clock = SimpleNamespace(process_time=lambda: next(seconds), monotonic=time.monotonic)
-    monkeypatch.setattr("lampblack.normals.training.train.time", clock)
+    monkeypatch.setattr("lampblack_research.training.train.time", clock)
     widest: list[int] = []
     batch_of = FigureCourse._batch
 
@@ -196,8 +196,8 @@ def test_a_run_from_nothing_begins_on_small_canvases(
         return batch
 
     monkeypatch.setattr(FigureCourse, "_batch", seen)
-    monkeypatch.setattr("lampblack.normals.training.train.STATISTICS_ROUNDS", 0)
-    monkeypatch.setattr("lampblack.normals.training.train.EXAMPLES", 1)
+    monkeypatch.setattr("lampblack_research.training.train.STATISTICS_ROUNDS", 0)
+    monkeypatch.setattr("lampblack_research.training.train.EXAMPLES", 1)
     options = TrainingOptions(minutes=0.1, batch=1, sides=(160,), first_side=64, capacity=2)
     card = NetworkCard("figure-net", (64, 96))
     begun = train(data, tmp_path / "run", card, options)
@@ -214,7 +214,7 @@ def test_a_run_from_nothing_begins_on_small_canvases(
 def test_the_course_of_a_run_can_be_looked_at(
     data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("lampblack.normals.training.train.LOG_STEPS", 2)
+    monkeypatch.setattr("lampblack_research.training.train.LOG_STEPS", 2)
     run = tmp_path / "run"
     card = NetworkCard("figure-net", (64, 96))
 

@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from importlib import import_module
 
 import typer
 
 from .. import __version__
 from .bench import bench
 from .console import EXIT_INTERRUPTED, console, for_people
-from .dataset import build
 from .doctor import doctor
 from .export import export
-from .flicker import flicker
 from .job import job
-from .learn import evaluate, train
 from .render import render
 from .serve import serve
 from .stages import palette, scene
 from .surface import mesh, normals
 from .turntable import turntable
+
+research = import_module("lampblack_research.cli")
+"""Named only here: nothing imports it."""
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -55,15 +56,15 @@ for command in (
     export,
     palette,
     scene,
-    train,
-    evaluate,
-    flicker,
+    research.train,
+    research.evaluate,
+    research.flicker,
     bench,
     doctor,
 ):
     app.command()(_interruptible(command))
 dataset = typer.Typer(no_args_is_help=True, help="Drawings of models, with exact truth.")
-dataset.command()(_interruptible(build))
+dataset.command()(_interruptible(research.build))
 app.add_typer(dataset, name="dataset")
 
 

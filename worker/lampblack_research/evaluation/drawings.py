@@ -10,7 +10,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import LampblackError
+from lampblack.errors import LampblackError
+
 from ..dataset.freestyle import Stroke, draw_freestyle
 from ..dataset.gbuffer import place, trace_placed, view_rotation
 from ..dataset.linework import Hand, draw_lines

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ...errors import RenderError
+from lampblack.errors import RenderError
+
 from .gbuffer import Placed
 
 SECONDS_A_VIEW = 120
@@ -65,7 +66,7 @@ def draw_freestyle(jobs: list[tuple[Placed, Stroke]]) -> list[NDArray[np.float32
             )
         try:
             subprocess.run(
-                [sys.executable, "-m", "lampblack.render.freestyle", name],
+                [sys.executable, "-m", "lampblack_research.render.freestyle", name],
                 env=dict(os.environ),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,

@@ -7,7 +7,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ... import __version__
+from lampblack import __version__
+
 from .build import OCCLUSION_STEP, DatasetOptions
 from .triple import BEHIND, DEPTH_STEPS, IN_FRONT
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...atomic import atomic_file
-from ...errors import LampblackError
+from lampblack.atomic import atomic_file
+from lampblack.errors import LampblackError
+
 from .gbuffer import GBuffer
 
 MAX_SIDE = 4096

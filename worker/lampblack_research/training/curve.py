@@ -6,7 +6,7 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
-from ...atomic import atomic_file
+from lampblack.atomic import atomic_file
 
 SIZE = (640, 400)
 _LEFT, _TOP, _RIGHT, _BOTTOM = 48, 28, 624, 368

@@ -16,7 +16,8 @@ from typing import Generic, Self, TypeVar
 import numpy as np
 import torch
 
-from ...errors import LampblackError
+from lampblack.errors import LampblackError
+
 from ..dataset.triple import Triple
 
 RESCAN_SECONDS = 60

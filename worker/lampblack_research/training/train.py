@@ -15,9 +15,10 @@ from typing import cast
 import torch
 from torch import nn
 
-from ...errors import LampblackError, OutputError
-from ..card import NetworkCard, load_network
-from ..networks import FigureNet, build_network
+from lampblack.errors import LampblackError, OutputError
+from lampblack.normals.card import NetworkCard, load_network
+from lampblack.normals.networks import FigureNet, build_network
+
 from .checkpoint import Checkpoint, Progress
 from .example import save_examples
 from .figures import FigureCourse

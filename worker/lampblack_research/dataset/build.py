@@ -16,7 +16,8 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import LampblackError, OutputError
+from lampblack.errors import LampblackError, OutputError
+
 from . import creatures
 from .deform import deformed
 from .freestyle import Stroke, draw_freestyle

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ...errors import LampblackError
+from lampblack.errors import LampblackError
+
 from .triple import BEHIND, IN_FRONT, Triple
 
 CELL = 160

@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import LampblackError
-from ..card import load_network
+from lampblack.errors import LampblackError
+from lampblack.normals.card import load_network
+from lampblack.normals.predict import DEFAULT_GRIDS, NormalPredictor
+from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
+
 from ..dataset.models import find_models
-from ..predict import DEFAULT_GRIDS, NormalPredictor
-from ..silhouette import flat_normals, inflated_normals, lumo_normals
 from .drawings import Lines, TestDrawing, drawings
 from .laigter import laigter_normals
 from .lumo_mixed import lumo_mixed_normals

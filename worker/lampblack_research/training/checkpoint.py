@@ -12,9 +12,10 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor, nn
 
-from ...atomic import atomic_file
-from ...errors import LampblackError
-from ..card import NetworkCard, save_network, write_tensors
+from lampblack.atomic import atomic_file
+from lampblack.errors import LampblackError
+from lampblack.normals.card import NetworkCard, save_network, write_tensors
+
 from .curve import save_curve
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..silhouette import lumo_normals
+from lampblack.normals.silhouette import lumo_normals
 
 INK = 0.3
 SMALLEST_SHARE = 0.004

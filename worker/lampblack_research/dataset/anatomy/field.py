@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ....compiled import compiled
+from lampblack.compiled import compiled
 
 Vector = NDArray[np.float64]
 

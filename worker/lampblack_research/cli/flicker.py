@@ -15,18 +15,19 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from ..cache import digest
-from ..drawing import find_frames, load_picture, take_apart
-from ..errors import LampblackError, NothingDrawnError
-from ..normals.dataset.models import find_models
-from ..normals.evaluation.turntable import turntable
-from ..normals.predict import NormalPredictor
-from ..normals.temporal.flicker import FlickerMeter
-from ..normals.temporal.miniature import Miniature
-from ..normals.temporal.steady import REACH, Around, Steadier
-from ..pipeline import Pipeline
-from .console import progress_bar
-from .options import open_cache
+from lampblack.cache import digest
+from lampblack.cli.console import progress_bar
+from lampblack.cli.options import open_cache
+from lampblack.drawing import find_frames, load_picture, take_apart
+from lampblack.errors import LampblackError, NothingDrawnError
+from lampblack.normals.predict import NormalPredictor
+from lampblack.normals.temporal.miniature import Miniature
+from lampblack.normals.temporal.steady import REACH, Around, Steadier
+from lampblack.pipeline import Pipeline
+
+from ..dataset.models import find_models
+from ..evaluation.flicker import FlickerMeter
+from ..evaluation.turntable import turntable
 
 Rows = dict[str, dict[str, float]]
 

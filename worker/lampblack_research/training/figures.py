@@ -13,9 +13,18 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
+from lampblack.normals.figure import (
+    COARSE,
+    SIDEWAYS,
+    canvas_for,
+    coarse_maps,
+    lay,
+    resize,
+    shape_maps,
+)
+from lampblack.normals.precision import fast_arithmetic
+
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
-from ..figure import COARSE, SIDEWAYS, canvas_for, coarse_maps, lay, resize, shape_maps
-from ..precision import fast_arithmetic
 from .example import Example, looked_at
 from .figure_loss import Batch, Loss, figure_loss
 from .stream import Stream

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from torch import Tensor, nn
 
-from ...atomic import atomic_file
+from lampblack.atomic import atomic_file
 
 _GAP = 4
 

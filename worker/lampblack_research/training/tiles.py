@@ -12,9 +12,10 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
+from lampblack.normals.precision import fast_arithmetic
+from lampblack.normals.tiles import ALIGNMENT, TILE, TileSource
+
 from ..dataset.triple import Triple
-from ..precision import fast_arithmetic
-from ..tiles import ALIGNMENT, TILE, TileSource
 from .example import Example, looked_at
 from .figure_loss import Loss, angles
 from .stream import Stream

@@ -15,10 +15,10 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from .miniature import Miniature
-from .registration import Registration, rigid_registration
-from .steady import Steadier, carried
-from .window import Planes
+from lampblack.normals.temporal.miniature import Miniature
+from lampblack.normals.temporal.registration import Registration, rigid_registration
+from lampblack.normals.temporal.steady import Steadier, carried
+from lampblack.normals.temporal.window import Planes
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from ...errors import LampblackError
+from lampblack.errors import LampblackError
 
 MAX_FACES = 2_000_000
 CREASE_DEGREES = 75.0

@@ -1,10 +1,10 @@
 """Line drawings of meshes by Blender's Freestyle (Grabli 2010), as in the paper.
 
-``python -m lampblack.render.freestyle FOLDER`` draws every ``FOLDER/*.npz`` into a ``.png`` of
-the same name, black on white paper. A job holds ``vertices`` (V, 3) float32 in pixels, x right,
-y up, z to the viewer, origin in the picture's lower left corner; ``faces`` (F, 3); ``size``
-(height, width); and the hand: ``width`` in pixels, ``taper`` 0 or 1, ``wobble`` in pixels,
-``crease`` in degrees (0 draws none), ``seed``.
+``python -m lampblack_research.render.freestyle FOLDER`` draws every ``FOLDER/*.npz`` into a
+``.png`` of the same name, black on white paper. A job holds ``vertices`` (V, 3) float32 in pixels,
+x right, y up, z to the viewer, origin in the picture's lower left corner; ``faces`` (F, 3);
+``size`` (height, width); and the line style: ``width`` in pixels, ``taper`` 0 or 1, ``wobble`` in
+pixels, ``crease`` in degrees (0 draws none), ``seed``.
 """
 
 from __future__ import annotations

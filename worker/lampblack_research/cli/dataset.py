@@ -8,12 +8,13 @@ from typing import Annotated
 import msgspec
 import typer
 
-from ..atomic import atomic_file
-from ..normals.dataset.build import DatasetOptions, build_dataset
-from ..normals.dataset.card import dataset_card
-from ..normals.dataset.sheet import dataset_sheet
-from ..normals.dataset.viewpoints import PAPER_VIEWPOINTS
-from .console import console, progress_bar
+from lampblack.atomic import atomic_file
+from lampblack.cli.console import console, progress_bar
+
+from ..dataset.build import DatasetOptions, build_dataset
+from ..dataset.card import dataset_card
+from ..dataset.sheet import dataset_sheet
+from ..dataset.viewpoints import PAPER_VIEWPOINTS
 
 
 def build(

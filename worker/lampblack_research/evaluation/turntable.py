@@ -10,13 +10,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from lampblack.normals.predict import NormalPredictor
+from lampblack.normals.temporal.miniature import Miniature, miniature
+from lampblack.normals.temporal.steady import REACH, Around, Steadier
+
 from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation
 from ..dataset.linework import Hand, draw_lines
 from ..dataset.models import Model, load_model
-from ..predict import NormalPredictor
-from ..temporal.flicker import rigid_change
-from ..temporal.miniature import Miniature, miniature
-from ..temporal.steady import REACH, Around, Steadier
+from .flicker import rigid_change
 
 STEP_DEGREES = 5.0
 _ELEVATION = 10.0
