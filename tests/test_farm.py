@@ -24,7 +24,7 @@ from lampblack.drawing.sequence import frame_list
 from lampblack.errors import LampblackError
 from lampblack.farm.cluster import check_address, light_group
 from lampblack.farm.tasks import MAX_TASKS, cut_into_tasks
-from lampblack.finals.order import Order
+from lampblack.finals.settings import RenderSettings
 from lampblack.shot import ShotFrame
 from projects import document, image, layer, png, write_project
 
@@ -188,14 +188,14 @@ def test_a_worker_notices_drawings_that_change_between_two_runs(
     tmp_path: Path, unrendered: list[str]
 ) -> None:
     save_picture(tmp_path / "a.0001.png", draw_ball(64))
-    order = Order(inputs=(str(tmp_path / "a.0001.png"),), output=str(tmp_path / "lit"))
-    order_json = msgspec.json.encode(order)
-    assert light_group(order_json, "first", ["a.0001.png"]) == [("a.0001.png", "done", [])]
-    assert light_group(order_json, "first", ["a.0001.png"]) == [("a.0001.png", "kept", [])]
+    settings = RenderSettings(inputs=(str(tmp_path / "a.0001.png"),), output=str(tmp_path / "lit"))
+    settings_json = msgspec.json.encode(settings)
+    assert light_group(settings_json, "first", ["a.0001.png"]) == [("a.0001.png", "done", [])]
+    assert light_group(settings_json, "first", ["a.0001.png"]) == [("a.0001.png", "kept", [])]
     save_picture(tmp_path / "a.0001.png", draw_ball(64, (60, 120, 220)))
-    assert light_group(order_json, "second", ["a.0001.png"]) == [("a.0001.png", "done", [])]
+    assert light_group(settings_json, "second", ["a.0001.png"]) == [("a.0001.png", "done", [])]
     (tmp_path / "a.0001.png").write_text("no picture")
-    ((_, became, words),) = light_group(order_json, "third", ["a.0001.png"])
+    ((_, became, words),) = light_group(settings_json, "third", ["a.0001.png"])
     assert became == "failed"
     assert "not a PNG" in words[0]
 

@@ -11,11 +11,11 @@ import pytest
 from numpy.typing import NDArray
 
 from conftest import draw_ball, files
+from lampblack.choices import LayerRole
 from lampblack.errors import LampblackWarning, ProjectError
 from lampblack.project import read_project
 from lampblack.project.archive import MAX_XML_BYTES
 from lampblack.project.shot import ProjectShot
-from lampblack.project.stack import Role
 from projects import (
     ARCH,
     PALETTE,
@@ -59,10 +59,10 @@ LAYERS = [
     layer(4, "hidden", [image(1, "secret.png")], visible=False),
     layer(5, "near", [image(2, "near.png", -70, 10), image(5, "near.png", 900, 10)]),
 ]
-ROLES: dict[str, Role] = {"figure": "character"}
+ROLES: dict[str, LayerRole] = {"figure": "character"}
 
 
-def shot_of(path: Path, roles: dict[str, Role] | None = None) -> ProjectShot:
+def shot_of(path: Path, roles: dict[str, LayerRole] | None = None) -> ProjectShot:
     return ProjectShot(*read_project(path), roles or {})
 
 
@@ -84,7 +84,7 @@ def difference(a: Picture, b: Picture) -> NDArray[np.float64]:
 @pytest.mark.parametrize("roles", [{}, ROLES], ids=["all lit", "one lit"])
 @pytest.mark.parametrize("camera", [STILL, PAN], ids=["still", "pan"])
 def test_frames_are_those_that_pencil2d_exports(
-    tmp_path: Path, camera: str, roles: dict[str, Role]
+    tmp_path: Path, camera: str, roles: dict[str, LayerRole]
 ) -> None:
     path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=camera), FILES)
     ours, theirs = unlit(shot_of(path, roles)), exported(path, 1, 5)

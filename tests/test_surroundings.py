@@ -11,7 +11,8 @@ import pytest
 from conftest import Run, draw_ball, files
 from lampblack.cache import ArrayCache
 from lampblack.drawing import save_picture
-from lampblack.finals.order import Order, open_shot
+from lampblack.finals.resolve import resolve_shot
+from lampblack.finals.settings import RenderSettings
 from lampblack.finals.surroundings import Surroundings
 from lampblack.pipeline import Pipeline
 
@@ -24,17 +25,17 @@ def ball(number: int) -> np.ndarray:
 
 
 @pytest.fixture
-def shot(tmp_path: Path) -> Order:
+def shot(tmp_path: Path) -> RenderSettings:
     folder = tmp_path / "walk"
     folder.mkdir()
     for number, drawn in enumerate([0, 0, 1, 2, None, 3], start=1):
         picture = np.zeros((90, 90, 4), np.uint8) if drawn is None else ball(drawn)
         save_picture(folder / f"walk.{number:04d}.png", picture)
-    return Order(inputs=(str(folder),), output=str(tmp_path / "lit"))
+    return RenderSettings(inputs=(str(folder),), output=str(tmp_path / "lit"))
 
 
-def normals_of(order: Order, numbers: list[int], cache: Path) -> dict[int, np.ndarray]:
-    opened = open_shot(order)
+def normals_of(settings: RenderSettings, numbers: list[int], cache: Path) -> dict[int, np.ndarray]:
+    opened = resolve_shot(settings)
     with Pipeline(ArrayCache(cache)) as pipeline:
         surroundings = Surroundings(opened.shot, pipeline)
         frames = {frame.number: frame for frame in opened.frames}
@@ -46,7 +47,9 @@ def normals_of(order: Order, numbers: list[int], cache: Path) -> dict[int, np.nd
         }
 
 
-def test_any_order_and_any_part_of_a_shot_gives_the_same(shot: Order, tmp_path: Path) -> None:
+def test_any_order_and_any_part_of_a_shot_gives_the_same(
+    shot: RenderSettings, tmp_path: Path
+) -> None:
     all_of_it = normals_of(shot, [1, 3, 4, 6], tmp_path / "a")
     backwards = normals_of(shot, [6, 4, 1, 3], tmp_path / "b")
     part = normals_of(replace_frames(shot, "3-4"), [4, 3], tmp_path / "c")
@@ -56,12 +59,14 @@ def test_any_order_and_any_part_of_a_shot_gives_the_same(shot: Order, tmp_path: 
         assert np.array_equal(normals, all_of_it[number])
 
 
-def replace_frames(order: Order, frames: str) -> Order:
-    return Order(inputs=order.inputs, output=order.output, frames=frames)
+def replace_frames(settings: RenderSettings, frames: str) -> RenderSettings:
+    return RenderSettings(inputs=settings.inputs, output=settings.output, frames=frames)
 
 
-def test_neighbours_are_found_only_when_a_surface_is_made(shot: Order, tmp_path: Path) -> None:
-    opened = open_shot(shot)
+def test_neighbours_are_found_only_when_a_surface_is_made(
+    shot: RenderSettings, tmp_path: Path
+) -> None:
+    opened = resolve_shot(shot)
     with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
         surroundings = Surroundings(opened.shot, pipeline)
         frame = opened.frames[2]
@@ -83,14 +88,14 @@ def test_neighbours_are_found_only_when_a_surface_is_made(shot: Order, tmp_path:
 
 def test_a_drawing_on_its_own_has_no_neighbours(tmp_path: Path) -> None:
     save_picture(tmp_path / "ball.png", draw_ball(60))
-    order = Order(inputs=(str(tmp_path / "ball.png"),), output=str(tmp_path / "lit"))
-    opened = open_shot(order)
+    settings = RenderSettings(inputs=(str(tmp_path / "ball.png"),), output=str(tmp_path / "lit"))
+    opened = resolve_shot(settings)
     with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
         assert Surroundings(opened.shot, pipeline).beside(opened.frames[0]) is None
 
 
 def test_normals_and_meshes_of_a_shot_are_steadied_unless_told_otherwise(
-    shot: Order, run: Run, tmp_path: Path
+    shot: RenderSettings, run: Run, tmp_path: Path
 ) -> None:
     folder = Path(shot.inputs[0])
     told = run("normals", folder, "-o", tmp_path / "s.%04d.npy")

@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from types import TracebackType
-from typing import Literal, Self
+from typing import Self
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
 
 from .cache import ArrayCache, digest
+from .choices import SolverName
 from .composite import composite
 from .drawing import Drawing
 from .normals.predict import DEFAULT_GRIDS, NormalPredictor
@@ -32,8 +33,6 @@ from .surface import Relief, build_relief, guided_filter, solve
 
 MAX_SURFACE_PX = 2048
 """Longest side at which a surface is solved; larger pictures are lit at this size."""
-
-SolverName = Literal["direct", "adam"]
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,12 @@ import functools
 import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Literal, TypeVar, get_type_hints
+from typing import Annotated, Any, TypeVar, get_type_hints
 
 import msgspec
 from msgspec import Meta
 
+from .choices import QualityName
 from .errors import SceneError
 
 VERSION = 1
@@ -153,7 +154,7 @@ class Scene:
     default_material: Material = field(default_factory=Material)
     floor: Floor | None = None
     relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
-    quality: Literal["low", "medium", "final"] = "low"
+    quality: QualityName = "low"
     version: int = VERSION
     extra: Extra = field(default_factory=dict)
 

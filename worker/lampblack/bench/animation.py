@@ -8,7 +8,8 @@ from tempfile import TemporaryDirectory
 
 from ..cache import ArrayCache
 from ..finals.light import light_frames
-from ..finals.order import Order, open_order
+from ..finals.resolve import resolve_job
+from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline
 from ..render import Passes, RenderChild, RenderRequest
 from ..shot import by_drawing
@@ -37,13 +38,13 @@ def bench_animation(source: Path, scene: Path | None) -> dict[str, float]:
         source: a project or a folder. scene: its quality is ignored.
     """
     with TemporaryDirectory() as folder:
-        order = Order(
+        settings = RenderSettings(
             inputs=(str(source),),
             output=f"{folder}/lit",
             scene=None if scene is None else str(scene),
             quality="final",
         )
-        opened = open_order(order)
+        opened = resolve_job(settings)
         drawings = len(by_drawing(opened.frames))
         with Pipeline(ArrayCache(Path(folder)), opened.options) as pipeline:
             pipeline.child = child = _TimedChild()

@@ -12,7 +12,7 @@ import typer
 
 from ..drawing import load_picture, take_apart
 from ..errors import LampblackError
-from ..finals.staging import read_scene
+from ..finals.scene_overrides import read_scene
 from ..scene import Scene, default_scene
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"

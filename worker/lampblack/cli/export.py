@@ -8,8 +8,9 @@ from typing import Annotated
 import typer
 
 from ..finals.one_frame import first_frame
-from ..finals.order import Order, open_shot
+from ..finals.resolve import resolve_shot
 from ..finals.scene_file import SUFFIXES, save_scene
+from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline
 from .options import (
     BackgroundOption,
@@ -52,7 +53,7 @@ def export(
     """
     check_suffix(output, *SUFFIXES)
     keep_inputs(output, [drawing])
-    order = Order(
+    settings = RenderSettings(
         inputs=(str(drawing),),
         output="",
         scene=None if scene is None else str(scene),
@@ -65,5 +66,5 @@ def export(
         steady=steady,
     )
     with Pipeline(open_cache()) as pipeline:
-        staged = first_frame(open_shot(order), pipeline)
+        staged = first_frame(resolve_shot(settings), pipeline)
         save_scene(pipeline, staged.drawing, staged.scene, output, staged.beside)

@@ -1,4 +1,4 @@
-"""``lampblack job``: an order for a render farm."""
+"""``lampblack job``: a job template for a render farm."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import typer
 
 from ..atomic import atomic_file
 from ..drawing.sequence import parse_frames, select_frames
-from ..finals.order import Order, open_shot
+from ..finals.resolve import resolve_shot
+from ..finals.settings import RenderSettings
 from .console import console
 from .options import (
     BackgroundOption,
@@ -62,7 +63,7 @@ def job(
     from ..farm.template import job_template, paths_outside, write_yaml
 
     check_suffix(output, ".yaml", ".yml")
-    order = Order(
+    settings = RenderSettings(
         inputs=(str(source),),
         output=str(to or source.parent / "lit"),
         scene=None if scene is None else str(scene),
@@ -74,15 +75,15 @@ def job(
         camera=camera,
         steady=steady,
     ).absolute()
-    wanted = open_shot(order).frames
+    wanted = resolve_shot(settings).frames
     if frames is not None:
         wanted = select_frames(wanted, parse_frames(frames))
     tasks = cut_into_tasks(wanted, frames_per_task)
     folder = output.absolute().parent
-    text = write_yaml(job_template(order, tasks, folder))
+    text = write_yaml(job_template(settings, tasks, folder))
     with atomic_file(output) as file:
         file.write(text)
     console.print(f"{len(wanted)} frames in {len(tasks)} tasks: {output}", markup=False)
-    given = [f"-p {name}={path}" for name, path in paths_outside(order, folder).items()]
+    given = [f"-p {name}={path}" for name, path in paths_outside(settings, folder).items()]
     words = shlex.join(["openjd", "run", str(output), "--step", "Light"])
     console.print(f"Try it here: {' '.join([words, *given])}", markup=False)

@@ -10,8 +10,8 @@ from typing import Annotated
 import typer
 
 from ..cache import ArrayCache, user_cache_folder
+from ..choices import LayerRole
 from ..errors import LampblackError
-from ..project.stack import Role
 
 
 class QualityName(StrEnum):
@@ -91,13 +91,13 @@ SolverOption = Annotated[Solver, typer.Option("--solver", help="How normals beco
 
 def layer_roles(
     character: list[str] | None, line: list[str] | None, background: list[str] | None
-) -> dict[str, Role]:
+) -> dict[str, LayerRole]:
     """What the layers of a project are, by name.
 
     Raises:
         LampblackError: a layer was named twice.
     """
-    named: list[tuple[str, Role]] = [(name, "character") for name in character or []]
+    named: list[tuple[str, LayerRole]] = [(name, "character") for name in character or []]
     named += [(name, "line") for name in line or []]
     named += [(name, "background") for name in background or []]
     roles = dict(named)

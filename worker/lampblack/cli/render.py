@@ -13,7 +13,8 @@ from ..drawing import load_picture, save_picture
 from ..drawing.contact_sheet import contact_sheet
 from ..errors import LampblackError
 from ..finals.light import Outcome, light_frames
-from ..finals.order import OpenOrder, Order, open_order
+from ..finals.resolve import ResolvedJob, resolve_job
+from ..finals.settings import RenderSettings
 from ..normals.predict import DEFAULT_GRIDS
 from ..pipeline import Pipeline
 from ..shot import ShotFrame
@@ -103,7 +104,7 @@ def render(
 
     Example: lampblack render walk/ -o lit/ --light 250,150,400 --quality final
     """
-    order = Order(
+    settings = RenderSettings(
         inputs=tuple(inputs),
         output=output,
         scene=None if scene is None else str(scene),
@@ -121,7 +122,7 @@ def render(
         steady=steady,
         again=again,
     )
-    opened = open_order(order)
+    opened = resolve_job(settings)
     if sheet is not None:
         _check_sheet(sheet, opened, inputs)
     with progress_bar() as bar:
@@ -136,7 +137,7 @@ def render(
             from ..farm.cluster import Certificates, light_on_cluster
 
             files = (None if file is None else str(file) for file in (tls_ca, tls_cert, tls_key))
-            outcome = light_on_cluster(order, opened, cluster, Certificates(*files), told)
+            outcome = light_on_cluster(settings, opened, cluster, Certificates(*files), told)
         else:
             with Pipeline(open_cache(), opened.options) as pipeline:
                 outcome = light_frames(opened, pipeline, listener=told)
@@ -149,7 +150,7 @@ def render(
         raise typer.Exit(EXIT_UNLIT)
 
 
-def _check_sheet(sheet: Path, opened: OpenOrder, inputs: list[str]) -> None:
+def _check_sheet(sheet: Path, opened: ResolvedJob, inputs: list[str]) -> None:
     check_suffix(sheet, ".png")
     sources = [Path(item) for item in inputs]
     pictures = [path for item in sources if item.is_dir() for path in item.glob("*.png")]
@@ -158,7 +159,7 @@ def _check_sheet(sheet: Path, opened: OpenOrder, inputs: list[str]) -> None:
         raise LampblackError("A contact sheet shows PNG frames only.", "Leave out --contact-sheet.")
 
 
-def _write_sheet(path: Path, opened: OpenOrder, outcome: Outcome) -> None:
+def _write_sheet(path: Path, opened: ResolvedJob, outcome: Outcome) -> None:
     """Drawings above, lit below: at most 12 of them, evenly chosen. One stands beside its own."""
     done = set(outcome.done)
     frames = [frame for frame in opened.frames if frame in done]
@@ -181,7 +182,7 @@ def _write_sheet(path: Path, opened: OpenOrder, outcome: Outcome) -> None:
     )
 
 
-def _summarise(opened: OpenOrder, outcome: Outcome) -> None:
+def _summarise(opened: ResolvedJob, outcome: Outcome) -> None:
     there = f", {len(outcome.kept)} of them from before" if outcome.kept else ""
     console.print(
         f"{len(outcome.done)} of {len(opened.frames)} frames are in "

@@ -17,7 +17,8 @@ from rich.table import Table
 from ..atomic import atomic_file
 from ..drawing import take_apart
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
-from ..finals.order import OpenShot, Order, open_shot
+from ..finals.resolve import ResolvedShot, resolve_shot
+from ..finals.settings import RenderSettings
 from ..scene import Canvas, Material, default_scene, encode_scene
 from ..shot import by_drawing
 from .console import progress_bar
@@ -72,12 +73,14 @@ def scene(
         file.write(encode_scene(replace(start, materials=materials)))
 
 
-def _open(inputs: list[str], mask: Path | None, ink: Path | None) -> OpenShot:
+def _open(inputs: list[str], mask: Path | None, ink: Path | None) -> ResolvedShot:
     mask_path, ink_path = (None if path is None else str(path) for path in (mask, ink))
-    return open_shot(Order(inputs=tuple(inputs), output="", mask=mask_path, ink=ink_path))
+    return resolve_shot(
+        RenderSettings(inputs=tuple(inputs), output="", mask=mask_path, ink=ink_path)
+    )
 
 
-def _count_colours(shot: OpenShot) -> list[tuple[str, int]]:
+def _count_colours(shot: ResolvedShot) -> list[tuple[str, int]]:
     """Flat colours and their pixels over all frames, most used first."""
     counts: Counter[str] = Counter()
     with progress_bar() as bar:

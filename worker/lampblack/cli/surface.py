@@ -13,7 +13,8 @@ import typer
 from ..atomic import atomic_file
 from ..drawing import Drawing, save_picture
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
-from ..finals.order import OpenShot, Order, open_shot
+from ..finals.resolve import ResolvedShot, resolve_shot
+from ..finals.settings import RenderSettings
 from ..finals.surroundings import Surroundings
 from ..finals.targets import Targets
 from ..normals.predict import DEFAULT_GRIDS
@@ -113,15 +114,15 @@ def _open(
     steady: bool,
     mask: Path | None,
     ink: Path | None,
-) -> tuple[OpenShot, Targets]:
+) -> tuple[ResolvedShot, Targets]:
     path = Path(output)
     if path.suffix and not path.is_dir():
         check_suffix(path, *(f".{kind}" for kind in kinds))
     own = [path for path in (mask, ink) if path is not None]
     keep_inputs(path, [*map(Path, inputs), *own])
     mask_path, ink_path = (None if path is None else str(path) for path in (mask, ink))
-    opened = open_shot(
-        Order(
+    opened = resolve_shot(
+        RenderSettings(
             inputs=tuple(inputs),
             output=output,
             frames=frames,
@@ -135,7 +136,7 @@ def _open(
     return opened, targets
 
 
-def _each(opened: OpenShot, pipeline: Pipeline, doing: str) -> Iterator[Each]:
+def _each(opened: ResolvedShot, pipeline: Pipeline, doing: str) -> Iterator[Each]:
     """Each drawing with the frames that show it and what is beside it; others are told."""
     failed = False
     surroundings = Surroundings(opened.shot, pipeline, opened.reach)

@@ -14,7 +14,8 @@ from ..atomic import atomic_file
 from ..drawing import save_picture
 from ..errors import LampblackError
 from ..finals.one_frame import first_frame
-from ..finals.order import Order, open_shot
+from ..finals.resolve import resolve_shot
+from ..finals.settings import RenderSettings
 from ..finals.turntable import turn_table
 from ..pipeline import Pipeline
 from .console import progress_bar
@@ -56,7 +57,7 @@ def turntable(
     if output.suffix and not animated and not output.is_dir():
         raise LampblackError(f"{output} is of no kind that can be written here.", "Known: .gif.")
     keep_inputs(output, [drawing])
-    order = Order(
+    settings = RenderSettings(
         inputs=(str(drawing),),
         output="",
         scene=None if scene is None else str(scene),
@@ -66,7 +67,7 @@ def turntable(
         roles=layer_roles(character, line, None),
         steady=steady,
     )
-    opened = open_shot(order)
+    opened = resolve_shot(settings)
     with Pipeline(open_cache()) as pipeline, progress_bar() as bar:
         pipeline.child.start()
         staged = first_frame(opened, pipeline)

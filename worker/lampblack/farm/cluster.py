@@ -20,7 +20,8 @@ import msgspec
 from ..cache import ArrayCache, user_cache_folder
 from ..errors import LampblackError, OutputError
 from ..finals.light import Listener, Outcome, light_frames
-from ..finals.order import OpenOrder, Order, open_order
+from ..finals.resolve import ResolvedJob, resolve_job
+from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline, PipelineOptions
 from ..shot import ShotFrame, by_drawing
 
@@ -37,13 +38,13 @@ class Certificates:
 
 
 def light_on_cluster(
-    order: Order,
-    opened: OpenOrder,
+    settings: RenderSettings,
+    opened: ResolvedJob,
     address: str,
     certificates: Certificates,
     listener: Listener = lambda frame, error: None,
 ) -> Outcome:
-    """Light the frames of ``order`` on the cluster whose scheduler is at ``address``.
+    """Light the frames of ``settings`` on the cluster whose scheduler is at ``address``.
 
     The workers see the same files under the same names. Frames of one drawing stay together.
 
@@ -58,7 +59,7 @@ def light_on_cluster(
             "Install it: pip install 'lampblack[cluster]'.",
         ) from error
     check_address(address)
-    order_json = msgspec.json.encode(order.absolute())
+    settings_json = msgspec.json.encode(settings.absolute())
     run = secrets.token_hex(8)
     outcome = Outcome()
     try:
@@ -74,7 +75,9 @@ def light_on_cluster(
     with client:
         groups = by_drawing(opened.frames)
         futures: dict[Any, list[ShotFrame]] = {
-            client.submit(light_group, order_json, run, [f.name for f in group], pure=False): group
+            client.submit(
+                light_group, settings_json, run, [f.name for f in group], pure=False
+            ): group
             for group in groups
         }
         for future in as_completed(futures):  # type: ignore[no-untyped-call]
@@ -101,14 +104,14 @@ def check_address(address: str) -> None:
 
 
 def light_group(
-    order_json: bytes, run: str, names: Sequence[str]
+    settings_json: bytes, run: str, names: Sequence[str]
 ) -> list[tuple[str, str, list[str]]]:
     """Runs on a worker: light the named frames; (name, what became of it, error's words) each.
 
     ``run`` names one call of ``light_on_cluster``: between two, drawings may have changed.
     """
     with _ONE_AT_A_TIME:
-        opened = _opened(order_json, run)
+        opened = _opened(settings_json, run)
         pipeline = _warm_pipeline(opened.options)
         wanted = [frame for frame in opened.frames if frame.name in set(names)]
         outcome = light_frames(opened, pipeline, wanted)
@@ -134,8 +137,8 @@ _pipelines: list[Pipeline] = []
 
 
 @functools.lru_cache(maxsize=1)
-def _opened(order_json: bytes, run: str) -> OpenOrder:
-    return open_order(msgspec.json.decode(order_json, type=Order))
+def _opened(settings_json: bytes, run: str) -> ResolvedJob:
+    return resolve_job(msgspec.json.decode(settings_json, type=RenderSettings))
 
 
 def _warm_pipeline(options: PipelineOptions) -> Pipeline:

@@ -1,4 +1,4 @@
-"""An order as an OpenJD job template (specification 2023-09), which farm managers take in."""
+"""Render settings as an OpenJD job template (version 2023-09), which farm managers take in."""
 
 from __future__ import annotations
 
@@ -10,17 +10,19 @@ import msgspec
 
 from ..drawing.sequence import frame_list
 from ..errors import LampblackError
-from ..finals.order import Order
+from ..finals.settings import RenderSettings
 
 VERSION = "jobtemplate-2023-09"
 
 
-def job_template(order: Order, tasks: Sequence[Sequence[int]], folder: Path) -> dict[str, Any]:
+def job_template(
+    settings: RenderSettings, tasks: Sequence[Sequence[int]], folder: Path
+) -> dict[str, Any]:
     """The template: parameters for what differs from machine to machine, and a step whose tasks
     are plain ``lampblack render`` commands.
 
     Args:
-        order: with one input, and all its paths absolute.
+        settings: with one input, and all its paths absolute.
         tasks: frame numbers of each.
         folder: the template's own. What lies within it is a parameter's default; paths outside
             must be given when the job is submitted (``paths_outside``).
@@ -28,12 +30,12 @@ def job_template(order: Order, tasks: Sequence[Sequence[int]], folder: Path) -> 
     Raises:
         LampblackError: the farm's part is not installed, or the template breaks its rules.
     """
-    paths = _paths(order)
+    paths = _paths(settings)
     parameters = [_parameter(name, path, folder) for name, path in paths.items()]
     named = {name: "{{Param." + name + "}}" for name in paths}
     replaced: dict[str, Any] = {"inputs": (named["Input"],), "output": named["Output"]}
     replaced |= {n.lower(): named[n] for n in ("Scene", "Mask", "Ink") if n in named}
-    told = msgspec.structs.replace(order, frames="{{Task.Param.Frames}}", **replaced)
+    told = msgspec.structs.replace(settings, frames="{{Task.Param.Frames}}", **replaced)
     parameters.append(
         {"name": "Lampblack", "type": "STRING", "default": "lampblack",
          "description": "The command, on the machines that render."}
@@ -83,15 +85,17 @@ def _not_installed() -> LampblackError:
     )
 
 
-def paths_outside(order: Order, folder: Path) -> dict[str, Path]:
+def paths_outside(settings: RenderSettings, folder: Path) -> dict[str, Path]:
     """The parameters, by name, that have no default in a template in ``folder``."""
-    return {name: path for name, path in _paths(order).items() if not path.is_relative_to(folder)}
+    return {
+        name: path for name, path in _paths(settings).items() if not path.is_relative_to(folder)
+    }
 
 
-def _paths(order: Order) -> dict[str, Path]:
-    (source,) = order.inputs
-    paths: dict[str, str | None] = {"Input": source, "Output": order.output}
-    paths |= {"Scene": order.scene, "Mask": order.mask, "Ink": order.ink}
+def _paths(settings: RenderSettings) -> dict[str, Path]:
+    (source,) = settings.inputs
+    paths: dict[str, str | None] = {"Input": source, "Output": settings.output}
+    paths |= {"Scene": settings.scene, "Mask": settings.mask, "Ink": settings.ink}
     return {name: Path(path) for name, path in paths.items() if path is not None}
 
 
@@ -116,7 +120,7 @@ def _check(template: dict[str, Any]) -> None:
         decode_job_template(template=template)
     except DecodeValidationError as error:
         raise LampblackError(
-            "This order makes no valid job template.",
+            "These settings make no valid job template.",
             "Choose shorter names, or fewer frames.",
             str(error),
         ) from error

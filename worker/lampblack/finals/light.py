@@ -24,8 +24,8 @@ from ..shot import ShotFrame
 from .ahead import ahead
 from .exr import save_exr
 from .layers import Layers, make_layers, seen_layers
-from .order import OpenOrder
 from .png import save_png
+from .resolve import ResolvedJob
 from .work import Work, plan
 
 ATTEMPTS = 2
@@ -54,12 +54,12 @@ Listener = Callable[[ShotFrame, LampblackError | None], None]
 
 
 def light_frames(
-    order: OpenOrder,
+    order: ResolvedJob,
     pipeline: Pipeline,
     frames: Sequence[ShotFrame] | None = None,
     listener: Listener = lambda frame, error: None,
 ) -> Outcome:
-    """Light ``frames`` (None: all of the order) into their files.
+    """Light ``frames`` (None: all of the job) into their files.
 
     A frame whose file was made from the same drawing, surroundings and scene is left alone, so
     a job that was stopped goes on where it was. A frame that fails is told and passed over;
@@ -79,7 +79,7 @@ def light_frames(
     return job.outcome
 
 
-def _overlapping(order: OpenOrder, wanted: Sequence[ShotFrame]) -> bool:
+def _overlapping(order: ResolvedJob, wanted: Sequence[ShotFrame]) -> bool:
     if order.shot.canvas is not None:
         return order.shot.canvas.width * order.shot.canvas.height <= OVERLAP_PX
     try:
@@ -94,7 +94,7 @@ class _Stopped(Exception):
 
 @dataclass
 class _Job:
-    order: OpenOrder
+    order: ResolvedJob
     pipeline: Pipeline
     listener: Listener
     outcome: Outcome = field(default_factory=Outcome)

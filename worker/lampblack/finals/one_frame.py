@@ -11,7 +11,7 @@ from ..pipeline import Pipeline
 from ..scene import Canvas, Scene
 from ..shot import ShotFrame
 from ..timeline import scene_at
-from .order import OpenShot
+from .resolve import ResolvedShot
 from .surroundings import Surroundings
 
 
@@ -25,7 +25,7 @@ class OneFrame:
     beside: Beside | None
 
 
-def first_frame(opened: OpenShot, pipeline: Pipeline) -> OneFrame:
+def first_frame(opened: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     """Stage the first frame that was asked for.
 
     Raises:
@@ -37,6 +37,6 @@ def first_frame(opened: OpenShot, pipeline: Pipeline) -> OneFrame:
     surroundings = Surroundings(opened.shot, pipeline, opened.reach)
     drawing = surroundings.drawing(frame)
     canvas = opened.shot.canvas or Canvas(*drawing.size)
-    scene = scene_at(opened.staging.scene(canvas), frame.number or 1)
+    scene = scene_at(opened.overrides.scene(canvas), frame.number or 1)
     placed = opened.shot.place(scene, drawing.size)
     return OneFrame(frame, drawing, placed, surroundings.beside(frame))

@@ -6,14 +6,13 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal, get_args
+from typing import get_args
 
+from ..choices import FileFormat
 from ..errors import LampblackError
 from ..shot import ShotFrame
 from .exr import exr_stamp
 from .png import png_stamp
-
-Kind = Literal["png", "exr"]
 
 _NUMBER = re.compile(r"%0?(\d?)d|#+")
 
@@ -35,7 +34,7 @@ class Targets:
         self,
         output: str,
         kind: str | None = None,
-        kinds: tuple[str, ...] = get_args(Kind),
+        kinds: tuple[str, ...] = get_args(FileFormat),
     ) -> None:
         self._path = Path(output)
         number = list(_NUMBER.finditer(self._path.name))

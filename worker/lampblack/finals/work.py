@@ -20,7 +20,7 @@ from ..render import Passes, Surface
 from ..scene import Canvas, Scene, encode_scene
 from ..shot import Cel, Picture, ShotFrame, by_drawing
 from ..timeline import scene_at
-from .order import OpenOrder
+from .resolve import ResolvedJob
 from .surroundings import Surroundings
 
 Floats = NDArray[np.float32]
@@ -59,7 +59,7 @@ class Work:
 
 
 def plan(
-    order: OpenOrder,
+    order: ResolvedJob,
     pipeline: Pipeline,
     frames: Sequence[ShotFrame],
     check: Callable[[], None] = lambda: None,
@@ -72,7 +72,7 @@ def plan(
 
 
 class _Planner:
-    def __init__(self, order: OpenOrder, pipeline: Pipeline, check: Callable[[], None]) -> None:
+    def __init__(self, order: ResolvedJob, pipeline: Pipeline, check: Callable[[], None]) -> None:
         self._order = order
         self._pipeline = pipeline
         self._surroundings = Surroundings(order.shot, pipeline, order.reach, check)
@@ -128,7 +128,7 @@ class _Planner:
 
     def _scene(self, frame: ShotFrame, canvas: Canvas) -> Scene:
         """The scene of ``frame``, in canvas pixels."""
-        scene = self._order.staging.scene(canvas)
+        scene = self._order.overrides.scene(canvas)
         if self._canvas is None:
             self._canvas = scene.canvas
         expected = self._canvas

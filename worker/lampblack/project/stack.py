@@ -5,14 +5,14 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
+from ..choices import LayerRole
 from ..errors import LampblackWarning, ProjectError
 from ..scene import Scene
 from .document import Layer, Project
 
-Role = Literal["character", "line", "background"]
-Roles = Mapping[str, Role]
+Roles = Mapping[str, LayerRole]
 """By layer name."""
 
 ROLES_FIELD = "pencil2d_layers"
@@ -73,12 +73,12 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
     )
 
 
-def roles_of(scene: Scene) -> dict[str, Role]:
+def roles_of(scene: Scene) -> dict[str, LayerRole]:
     """The roles that the drawing tool keeps in ``scene``; what is malformed counts for nothing."""
     kept: Any = scene.extra.get(ROLES_FIELD)
     if not isinstance(kept, dict):
         return {}
-    return {name: role for name, role in kept.items() if role in get_args(Role)}
+    return {name: role for name, role in kept.items() if role in get_args(LayerRole)}
 
 
 def _is_result(layer: Layer, roles: Roles) -> bool:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
+from ..choices import SolverName
 from ..errors import LampblackWarning
 from .adam import inflate_adam
 from .direct import inflate_direct
@@ -30,7 +31,7 @@ SOLVERS: dict[str, Solver] = {"direct": inflate_direct, "adam": inflate_adam}
 
 
 def solve(
-    normals: ArrayLike, mask: ArrayLike, solver: Literal["direct", "adam"] = "direct"
+    normals: ArrayLike, mask: ArrayLike, solver: SolverName = "direct"
 ) -> NDArray[np.float32]:
     """Inflate a normal map (paper, section 3.2).
 

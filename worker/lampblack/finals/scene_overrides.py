@@ -1,12 +1,12 @@
-"""From a scene file and options to the scene that each drawing is lit in."""
+"""From a scene file and what overrides it to the scene that each drawing is lit in."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
 
+from ..choices import QualityName
 from ..errors import SceneError
 from ..scene import (
     MAX_LIGHTS,
@@ -19,22 +19,21 @@ from ..scene import (
     default_scene,
 )
 
-QualityLevel = Literal["low", "medium", "final"]
-
 
 @dataclass(frozen=True)
-class Staging:
-    """What was asked for: the file's scene or the default one, with parts put in their place.
+class SceneOverrides:
+    """The scene file's scene, or the default one, with parts of it replaced.
 
     Attributes:
+        file: the scene of the file, if there is one.
         lights: ``X,Y,Z`` each, instead of the scene's.
         floor: its canvas line. quality: one of the presets.
     """
 
-    read: Scene | None = None
+    file: Scene | None = None
     lights: Sequence[str] = ()
     floor: float | None = None
-    quality: QualityLevel | None = None
+    quality: QualityName | None = None
 
     def __post_init__(self) -> None:
         lights_at(self.lights, Canvas(1, 1))  # what is mistyped is told before any work
@@ -43,12 +42,12 @@ class Staging:
 
     def scene(self, canvas: Canvas) -> Scene:
         """The scene for drawings on ``canvas``."""
-        staged = self.read or default_scene(canvas.width, canvas.height)
+        scene = self.file or default_scene(canvas.width, canvas.height)
         if self.lights:
-            staged = replace(staged, lights=lights_at(self.lights, canvas))
+            scene = replace(scene, lights=lights_at(self.lights, canvas))
         if self.floor is not None:
-            staged = replace(staged, floor=floor_at(self.floor))
-        return staged if self.quality is None else replace(staged, quality=self.quality)
+            scene = replace(scene, floor=floor_at(self.floor))
+        return scene if self.quality is None else replace(scene, quality=self.quality)
 
 
 def read_scene(path: Path) -> Scene:

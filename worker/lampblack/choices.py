@@ -1,0 +1,15 @@
+"""The closed lists of names that scenes, render settings and the command line share."""
+
+from typing import Literal
+
+QualityName = Literal["low", "medium", "final"]
+"""Presets of ``render/quality.py``."""
+
+FileFormat = Literal["png", "exr"]
+"""Kinds of files that a lit frame is written to."""
+
+SolverName = Literal["direct", "adam"]
+"""How normals become a surface: the exact minimiser, or the paper's gradient descent."""
+
+LayerRole = Literal["character", "line", "background"]
+"""What a layer of a project is."""
