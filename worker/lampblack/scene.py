@@ -37,12 +37,13 @@ Strength = Annotated[float, Meta(ge=0, le=100)]
 Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
 Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
 KeyFrame = Annotated[int, Meta(ge=0, le=999_999, description="frame of the animation")]
+Quality = Literal["low", "medium", "final"]
 Extra = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class LightKey:
-    """What a light is like at one frame; see ``AreaLight.keys``."""
+    """A light at one frame: each field is one of ``AreaLight`` that keys can change."""
 
     frame: KeyFrame
     x: Pixels
@@ -62,9 +63,10 @@ class AreaLight:
     canvas's long side) to exactly the drawn colour; light falls off with the square of the
     distance. ``z`` below 0 stands behind the paper.
 
-    With ``keys``, in any order, it changes evenly from each to the next (its colour in linear
-    light), and holds before the first and after the last; its own values then count for
-    nothing. Of keys at one frame the last counts. See ``timeline.py``.
+    With ``keys``, in any order, it changes from each to the next, and holds before the first and
+    after the last; its own values then count for nothing. Between two keys numbers change evenly,
+    colours in linear light, and any other field holds. Of keys at one frame the last counts. See
+    ``timeline.py``.
     """
 
     x: Pixels
@@ -103,7 +105,7 @@ class Material:
 
 @dataclass(frozen=True)
 class FloorKey:
-    """How a floor lies at one frame; see ``Floor.keys``."""
+    """A floor at one frame: each field is one of ``Floor`` that keys can change."""
 
     frame: KeyFrame
     y: Pixels
@@ -155,7 +157,7 @@ class Scene:
     floor: Floor | None = None
     relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
     quality: QualityName = "low"
-    version: int = VERSION
+    version: Annotated[int, Meta(ge=VERSION, le=VERSION)] = VERSION
     extra: Extra = field(default_factory=dict)
 
     def material(self, colour: str) -> Material:

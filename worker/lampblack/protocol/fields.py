@@ -7,6 +7,7 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
+from ..scene import Colour as Colour
 from .limits import MAX_NUMBER
 
 PIXELS = {"x-unit": "px"}
@@ -26,9 +27,6 @@ Revision = Annotated[
 Digest = Annotated[
     str,
     Meta(pattern="^[0-9a-f]{40}$", max_length=40, description="BLAKE2b-160 of a frame's planes"),
-]
-Colour = Annotated[
-    str, Meta(pattern="^#[0-9a-f]{6}$", max_length=7, description="sRGB, lower case #rrggbb")
 ]
 Name = Annotated[str, Meta(min_length=1, max_length=64)]
 Sentence = Annotated[str, Meta(max_length=500)]

@@ -6,8 +6,10 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
+from ..scene import QualityName
 from .fields import Count, FrameNumber, Message, Request
 
+Outcome = Literal["finished", "cancelled", "failed"]
 Path = Annotated[str, Meta(max_length=1024, extra_json_schema={"x-unit": "path"})]
 
 
@@ -31,7 +33,7 @@ class Render(Message, frozen=True, kw_only=True):
             description="absolute, the frame number as %04d, such as /shots/a_v001.%04d.png",
         ),
     ]
-    quality: Literal["low", "medium", "final"] = "final"
+    quality: QualityName = "final"
     keep_finished: Annotated[
         bool, Meta(description="leave frames whose file is already there and whole")
     ] = False
@@ -60,7 +62,7 @@ class Done(Message, frozen=True, kw_only=True):
     """The end of a job; nothing of it follows."""
 
     request: Request
-    outcome: Literal["finished", "cancelled", "failed"]
+    outcome: Outcome
     frames_done: Count
     frames_total: Count
     frames_failed: Annotated[Count, Meta(description="each was told of by an error")] = 0

@@ -11,6 +11,8 @@ from ..scene import Scene
 from .fields import Count, Crop, Digest, FrameNumber, ImageSide, Message, Request, Revision
 from .planes import Plane
 
+Show = Literal["lit", "normals", "relief"]
+
 
 class SetScene(Message, frozen=True, kw_only=True):
     """Replace the scene. Fields of the scene that the worker does not know are kept."""
@@ -56,7 +58,7 @@ class Image(Message, frozen=True, kw_only=True):
     frame: FrameNumber
     digest: Annotated[Digest, Meta(description="of the drawing that is shown")]
     revision: Annotated[Count, Meta(description="of the scene that is shown; 0: none was set")]
-    show: Literal["lit", "normals", "relief"]
+    show: Show
     pass_: Annotated[
         Count, Meta(description="rises from 0 while request, digest and revision stay")
     ] = msgspec.field(name="pass")
