@@ -37,7 +37,6 @@ Strength = Annotated[float, Meta(ge=0, le=100)]
 Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
 Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
 KeyFrame = Annotated[int, Meta(ge=0, le=999_999, description="frame of the animation")]
-Quality = Literal["low", "medium", "final"]
 Extra = dict[str, Any]
 
 

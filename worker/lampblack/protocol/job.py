@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from ..scene import QualityName
+from ..choices import QualityName
 from .fields import Count, FrameNumber, Message, Request
 
 Outcome = Literal["finished", "cancelled", "failed"]
