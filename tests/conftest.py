@@ -5,19 +5,36 @@ from __future__ import annotations
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from lampblack.cache import ArrayCache
 from lampblack.cli import main
 from lampblack.drawing import save_picture
 from lampblack.pipeline import Pipeline
 from lampblack.render import LightPasses, Passes
+from support.command_line import Outcome, Run
+from support.drawings import draw_ball
+from support.window import missing
+
+TESTS = Path(__file__).parent
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark each test by the folder that it is in: what a test costs is said by where it is."""
+    lacking = missing()
+    for item in items:
+        folder = item.path.relative_to(TESTS).parts[0]
+        if folder in ("render", "window"):
+            item.add_marker(folder)
+            item.add_marker("cycles")
+        if folder == "window":
+            item.add_marker(pytest.mark.timeout(600))
+            item.add_marker(pytest.mark.skipif(bool(lacking), reason=f"missing: {lacking}"))
 
 
 @pytest.fixture(autouse=True)
@@ -32,35 +49,11 @@ def pipeline(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pipeline]:
         yield shared
 
 
-def draw_ball(
-    size: int = 160, fill: tuple[int, int, int] = (220, 120, 60), canvas: int | None = None
-) -> NDArray[np.uint8]:
-    """(canvas, canvas, 4) uint8: an inked, anti-aliased ball on a transparent canvas."""
-    canvas = canvas or size
-    rows, columns = np.mgrid[0:canvas, 0:canvas] + 0.5 - canvas / 2
-    distance = np.hypot(rows, columns)
-    radius, line = size * 0.4, max(2.0, size / 60)
-    cover = np.clip(radius - distance + 0.5, 0, 1)
-    inside = np.clip(radius - line - distance + 0.5, 0, 1)[..., None]
-    colour = np.array(fill) * inside + np.array([20, 16, 24]) * (1 - inside)
-    return np.dstack([np.round(colour), np.round(255 * cover)]).astype(np.uint8)
-
-
 @pytest.fixture
 def ball_png(tmp_path: Path) -> Path:
     path = tmp_path / "ball.png"
     save_picture(path, draw_ball())
     return path
-
-
-@dataclass(frozen=True)
-class Outcome:
-    code: int
-    out: str
-    err: str
-
-
-Run = Callable[..., Outcome]
 
 
 @pytest.fixture
@@ -96,7 +89,3 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         "lampblack.finals.light.composite", lambda drawing, passes, scene: drawing.pixels
     )
     return rendered
-
-
-def files(folder: Path) -> set[str]:
-    return {path.name for path in folder.iterdir()}

@@ -12,7 +12,6 @@ import trimesh
 from PIL import Image
 from scipy import ndimage
 
-from conftest import Run
 from lampblack.errors import LampblackError
 from lampblack_research.dataset.anatomy.clay import Clay
 from lampblack_research.dataset.anatomy.turned import turned
@@ -25,6 +24,7 @@ from lampblack_research.dataset.models import Model
 from lampblack_research.dataset.smooth import smoothed
 from lampblack_research.dataset.triple import BEHIND, IN_FRONT, Triple, occlusion_edges
 from lampblack_research.dataset.viewpoints import viewpoint
+from support.command_line import Run
 
 OPTIONS = DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
 

@@ -1,0 +1,107 @@
+"""Jobs and clusters in earnest: every frame made, losses survived."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lampblack.drawing import load_picture
+from support.command_line import Run, files
+from support.drawings import draw_ball
+from support.projects import document, image, layer, png, walk, write_project
+
+BIN = Path(sys.executable).parent
+
+
+def test_openjd_runs_the_job(run: Run, tmp_path: Path) -> None:
+    project, target, out = walk(tmp_path, [1, 2, 1, 9]), tmp_path / "job.yaml", tmp_path / "lit"
+    blank = png(np.zeros((8, 8, 4), np.uint8))
+    xml = document(
+        [layer(2, "b", [image(1, "1.png", -40, -40), image(3, "blank.png"),
+                        image(4, "1.png", -40, -40)])],
+        size=(96, 96),
+    )  # fmt: skip
+    project.unlink()
+    write_project(project, xml, {"1.png": png(draw_ball(80)), "blank.png": blank})
+    assert run("job", project, "-o", target, "--frames-per-task", 1).code == 0
+    done = subprocess.run(
+        [BIN / "openjd", "run", target, "--step", "Light", "-p", f"Lampblack={BIN}/lampblack"],
+        capture_output=True, text=True, timeout=240, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    assert files(out) == {f"walk.{n:04d}.png" for n in range(1, 5)}
+    pictures = [load_picture(out / f"walk.000{n}.png") for n in range(1, 5)]
+    assert np.array_equal(pictures[0], pictures[3])
+    assert not pictures[2].any()
+
+
+@pytest.fixture
+def certificate(tmp_path: Path) -> tuple[Path, Path]:
+    """Our own authority: certificate and key."""
+    if shutil.which("openssl") is None:
+        pytest.skip("openssl is not installed")
+    pem, key = tmp_path / "ca.pem", tmp_path / "ca.key"
+    subprocess.run(
+        ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
+         "-subj", "/CN=lampblack", "-keyout", key, "-out", pem],
+        check=True, capture_output=True,
+    )  # fmt: skip
+    return pem, key
+
+
+@pytest.fixture
+def cluster(
+    tmp_path: Path, certificate: tuple[Path, Path]
+) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
+    """A scheduler's address, and two workers, each a process of one thread."""
+    pem, key = certificate
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        address = f"tls://127.0.0.1:{free.getsockname()[1]}"
+    tls = ["--tls-ca-file", pem, "--tls-cert", pem, "--tls-key", key]
+    dask, log = [sys.executable, "-m", "dask"], (tmp_path / "cluster.log").open("wb")
+    quiet = {"stdout": log, "stderr": log, "env": {**os.environ, "OMP_NUM_THREADS": "1"}}
+    commands = [[*dask, "scheduler", "--host", address, "--no-dashboard", *tls]]
+    worker = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
+    commands += [[*worker, "--local-directory", tmp_path / f"worker{n}", *tls] for n in (1, 2)]
+    processes = [subprocess.Popen(command, **quiet) for command in commands]  # type: ignore[call-overload]
+    yield address, processes[1:]
+    for process in processes:
+        process.kill()
+        process.wait()
+    log.close()
+
+
+def test_a_worker_that_dies_loses_no_frame(
+    tmp_path: Path,
+    cluster: tuple[str, list[subprocess.Popen[bytes]]],
+    certificate: tuple[Path, Path],
+) -> None:
+    address, workers = cluster
+    project, out = walk(tmp_path, [n % 12 for n in range(24)]), tmp_path / "lit"
+    pem, key = certificate
+    command = [
+        sys.executable, "-m", "lampblack", "render", project, "-o", out, "--cluster", address,
+        "--tls-ca", pem, "--tls-cert", pem, "--tls-key", key,
+    ]  # fmt: skip
+    process = subprocess.Popen(command, stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 200
+    while len(list(out.glob("walk.*.png"))) < 3 and time.monotonic() < deadline:
+        assert process.poll() is None, (process.stderr or sys.stderr).read()
+        time.sleep(0.05)
+    os.kill(workers[0].pid, signal.SIGKILL)
+    _, told = process.communicate(timeout=240)
+    assert process.returncode == 0, told
+    assert files(out) == {f"walk.{n:04d}.png" for n in range(1, 25)}
+    pictures = [load_picture(out / f"walk.{n:04d}.png") for n in range(1, 25)]
+    assert all(np.array_equal(pictures[n], pictures[n + 12]) for n in range(12))

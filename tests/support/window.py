@@ -1,0 +1,272 @@
+"""A real Pencil2D with the plugin, in a virtual display of its own, driven as an artist would.
+
+Mouse and keys go through the X server (xdotool); where things stand is told by the probe plugin of
+``tests/plugin/probe``; pictures are screenshots.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from support.paths import BUILD
+
+PLUGINS = BUILD / "plugins"
+WINDOW = (1430, 960)
+PROGRAMS = ("pencil2d", "Xvfb", "openbox", "xdotool", "import")
+
+
+def missing() -> str:
+    """What the machine lacks to run these tests; empty if nothing."""
+    lacking = [name for name in PROGRAMS if shutil.which(name) is None]
+    lacking += [
+        str(PLUGINS / "generic" / name)
+        for name in ("liblampblack.so", "liblampblackprobe.so")
+        if not (PLUGINS / "generic" / name).exists()
+    ]
+    return ", ".join(lacking)
+
+
+def wait_until(happened: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
+    """Return the first true answer; fail after ``seconds``, naming what was waited for."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        answer = happened()
+        if answer:
+            return answer
+        time.sleep(0.05)
+    raise AssertionError(f"waited {seconds:.0f} s in vain for {what}")
+
+
+class Display:
+    """A virtual X display with a window manager."""
+
+    def __init__(self, folder: Path, size: tuple[int, int] = (2900, 1960)) -> None:
+        self._log = (folder / "display.log").open("ab")
+        read, write = os.pipe()
+        self._server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size[0]}x{size[1]}x24",
+             "-nolisten", "tcp", "-noreset"],
+            pass_fds=[write], stdout=self._log, stderr=self._log,
+        )  # fmt: skip
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.name = ":" + number.readline().strip()
+        self.environment = {**os.environ, "DISPLAY": self.name}
+        self._manager = subprocess.Popen(
+            ["openbox"], env=self.environment, stdout=self._log, stderr=self._log
+        )
+
+    def close(self) -> None:
+        for process in (self._manager, self._server):
+            process.terminate()
+            process.wait(10)
+        self._log.close()
+
+    def do(self, *arguments: object) -> str:
+        """``xdotool ARGUMENTS``"""
+        ran = subprocess.run(
+            ["xdotool", *map(str, arguments)],
+            env=self.environment, check=True, capture_output=True, text=True, timeout=30,
+        )  # fmt: skip
+        return ran.stdout
+
+    def screenshot(self) -> NDArray[np.uint8]:
+        """(H, W, 3) uint8, sRGB: the whole screen."""
+        ran = subprocess.run(
+            ["import", "-silent", "-window", "root", "png:-"],
+            env=self.environment, check=True, capture_output=True, timeout=30,
+        )  # fmt: skip
+        with Image.open(io.BytesIO(ran.stdout)) as picture:
+            return np.asarray(picture.convert("RGB"))
+
+
+class Pencil2D:
+    """A running Pencil2D. Coordinates are the screen's."""
+
+    def __init__(
+        self,
+        display: Display,
+        folder: Path,
+        project: Path | None,
+        *,
+        plugin: bool = True,
+        python: str = sys.executable,
+        scale: float = 1.0,
+    ) -> None:
+        home, temporary = folder / "home", folder / "tmp"
+        for each in (home, temporary):
+            each.mkdir(parents=True, exist_ok=True)
+        self.display, self._scale = display, scale
+        self._socket_name = str(folder / "probe")
+        with suppress(FileNotFoundError):
+            Path(self._socket_name).unlink()
+        keys = "lampblack,lampblackprobe" if plugin else "lampblackprobe"
+        environment = {
+            **display.environment,
+            "HOME": str(home),
+            "TMPDIR": str(temporary),
+            "XDG_RUNTIME_DIR": str(temporary),
+            "XDG_CACHE_HOME": str(folder / "cache"),
+            "XDG_CONFIG_HOME": str(home / ".config"),
+            "LC_ALL": "C.UTF-8",
+            "QT_PLUGIN_PATH": str(PLUGINS),
+            "QT_QPA_GENERIC_PLUGINS": keys,
+            "QT_SCALE_FACTOR": str(scale),
+            "LAMPBLACK_PROBE": self._socket_name,
+            "LAMPBLACK_PYTHON": python,
+            "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "2"),
+        }
+        temporary.chmod(0o700)
+        self.log = folder / "pencil2d.log"
+        self._output = self.log.open("ab")
+        command = ["pencil2d", *([str(project)] if project else [])]
+        self.process = subprocess.Popen(
+            command, env=environment, stdout=self._output, stderr=self._output, cwd=folder
+        )
+        self._probe = self._connect()
+        wait_until(lambda: self.of_class("ScribbleArea"), "Pencil2D's canvas")
+        title = project.name if project else "Pencil2D"
+        self.window = wait_until(lambda: self._main_window(title), "Pencil2D's window")
+        self.display.do("windowsize", "--sync", self.window, *(round(n * scale) for n in WINDOW))
+        self.display.do("windowmove", "--sync", self.window, 2, 20)
+        self.display.do("windowactivate", "--sync", self.window)
+
+    def close(self) -> None:
+        """End it without a question, if it is still there, and see that it had not died."""
+        died = self.process.poll()
+        self._lines.close()
+        self._probe.close()
+        if died is None:
+            self.process.send_signal(signal.SIGKILL)
+            self.process.wait(10)
+        self._output.close()
+        assert not died, f"Pencil2D ended with {died}:\n{self.log.read_text()[-3000:]}"
+
+    def find(self, name: str) -> dict[str, Any]:
+        """What the probe says of the object called ``name``; empty if there is none."""
+        return self._ask({"do": "find", "name": name})
+
+    def value(self, name: str, property_name: str) -> Any:
+        return self.find(name).get("properties", {}).get(property_name)
+
+    def of_class(self, name: str) -> dict[str, Any]:
+        return self._ask({"do": "class", "name": name})
+
+    def names(self, prefix: str) -> dict[str, bool]:
+        return self._ask({"do": "names", "name": prefix})
+
+    def entries(self, menu: str) -> dict[str, tuple[int, int, int, int]]:
+        """Left, top, width, height of each entry of an open menu."""
+        return {
+            text: tuple(place) for text, place in self._ask({"do": "entries", "name": menu}).items()
+        }
+
+    def trigger(self, action: str) -> None:
+        assert self._ask({"do": "trigger", "name": action})["done"], action
+
+    def set(self, name: str, property_name: str, value: Any) -> None:
+        asked = {"do": "set", "name": name, "property": property_name, "value": value}
+        assert self._ask(asked)["done"], (name, property_name)
+
+    def stalls(self) -> dict[str, Any]:
+        """Histogram of the event loop's turns since the last call."""
+        return self._ask({"do": "stalls"})
+
+    def latency(self, name: str) -> list[float]:
+        """Milliseconds from mouse moves to lit pixels since the last call."""
+        return list(self._ask({"do": "latency", "name": name})["milliseconds"])
+
+    def rect(self, name: str) -> tuple[int, int, int, int]:
+        """Left, top, width, height of a visible widget, by object name or class."""
+        said = self.find(name) or self.of_class(name)
+        assert said.get("seen"), f"{name} is not in sight"
+        left, top, width, height = (round(n * self._scale) for n in said["rect"])
+        return left, top, width, height
+
+    def screenshot(self) -> NDArray[np.uint8]:
+        """(H, W, 3) uint8, sRGB: the screen as far as the window reaches."""
+        width, height = (round(n * self._scale) + 30 for n in WINDOW)
+        return self.display.screenshot()[:height, :width]
+
+    def canvas_picture(self) -> NDArray[np.uint8]:
+        left, top, width, height = self.rect("ScribbleArea")
+        return self.display.screenshot()[top : top + height, left : left + width]
+
+    def click(self, name: str, button: int = 1) -> None:
+        """Click in the middle of a widget, once it stands still: docks are laid out late."""
+        left, top, width, height = wait_until(lambda: self._resting_rect(name), name, 10)
+        self.click_at(left + width // 2, top + height // 2, button)
+
+    def _resting_rect(self, name: str) -> tuple[int, int, int, int] | None:
+        before = self.rect(name)
+        time.sleep(0.2)
+        return before if self.rect(name) == before else None
+
+    def click_at(self, x: float, y: float, button: int = 1) -> None:
+        self.display.do("mousemove", "--sync", round(x), round(y), "click", button)
+
+    def drag(
+        self, path: list[tuple[float, float]], button: int = 1, pause: float = 0.01
+    ) -> Iterator[int]:
+        """Press at the first point, move along, release at the last; yields at every move."""
+        (x, y), *rest = path
+        self.display.do("mousemove", "--sync", round(x), round(y), "mousedown", button)
+        for index, (x, y) in enumerate(rest):
+            self.display.do("mousemove", round(x), round(y), "sleep", pause)
+            yield index
+        self.display.do("mouseup", button)
+
+    def key(self, *keys: str) -> None:
+        self.display.do("key", *keys)
+
+    def _main_window(self, title: str) -> str:
+        # A window that comes or goes meanwhile makes the search fail: look again.
+        with suppress(subprocess.CalledProcessError):
+            return self.display.do("search", "--onlyvisible", "--name", title).split()[0]
+        return ""
+
+    def _connect(self) -> socket.socket:
+        probe = socket.socket(socket.AF_UNIX)
+        probe.settimeout(30)
+
+        def reached() -> bool:
+            assert self.process.poll() is None, self.log.read_text()[-3000:]
+            with suppress(OSError):
+                probe.connect(self._socket_name)
+                return True
+            return False
+
+        wait_until(reached, "the probe in Pencil2D")
+        self._lines = probe.makefile("rb")
+        return probe
+
+    def _ask(self, question: dict[str, Any]) -> dict[str, Any]:
+        self._probe.sendall(json.dumps(question).encode() + b"\n")
+        answer: dict[str, Any] = json.loads(self._lines.readline())
+        assert "error" not in answer, answer
+        return answer
+
+
+@contextmanager
+def pencil2d(
+    display: Display, folder: Path, project: Path | None, **options: Any
+) -> Iterator[Pencil2D]:
+    """A running Pencil2D for the length of a block."""
+    with closing(Pencil2D(display, folder, project, **options)) as program:
+        yield program

@@ -1,0 +1,107 @@
+"""Shots spread over tasks and machines: every frame made, each drawing once, losses survived."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+import yaml
+from openjd.model import decode_job_template
+
+from lampblack.drawing import parse_frames, save_picture
+from lampblack.drawing.sequence import frame_list
+from lampblack.errors import LampblackError
+from lampblack.farm.cluster import check_address, light_group
+from lampblack.farm.tasks import MAX_TASKS, cut_into_tasks
+from lampblack.finals.settings import RenderSettings
+from lampblack.shot import ShotFrame
+from support.command_line import Run
+from support.drawings import draw_ball
+from support.projects import walk
+
+
+def test_tasks_hold_each_drawing_whole() -> None:
+    frames = [ShotFrame(n, f"{n}.png", f"drawing {n % 5}") for n in range(1, 24)]
+    tasks = cut_into_tasks(frames, 6)
+    assert sorted(number for task in tasks for number in task) == list(range(1, 24))
+    for drawing in range(5):
+        holders = [task for task in tasks if any(number % 5 == drawing for number in task)]
+        assert len(holders) == 1
+    assert all(len(task) >= 6 for task in tasks[:-1])
+    many = [ShotFrame(n, f"{n}.png", str(n)) for n in range(5000)]
+    assert len(cut_into_tasks(many, 1)) <= MAX_TASKS
+    with pytest.raises(LampblackError, match="no number"):
+        cut_into_tasks([ShotFrame(None, "a.png", "")], 1)
+
+
+@pytest.mark.parametrize("numbers", [[1], [1, 2, 3], [1, 3, 4, 9], list(range(0, 99, 2))])
+def test_frame_lists_are_read_back(numbers: list[int]) -> None:
+    assert parse_frames(frame_list(numbers)) == numbers
+
+
+def test_a_job_names_each_drawing_in_one_task(run: Run, tmp_path: Path) -> None:
+    project, target = walk(tmp_path, [1, 2, 1, 2, 3, 3, 1]), tmp_path / "job.yaml"
+    words = ("--to", tmp_path / "lit.%04d.exr", "--quality", "final", "--frames-per-task", 1)
+    assert run("job", project, "-o", target, *words).code == 0
+    template = yaml.safe_load(target.read_text())
+    decode_job_template(template=template)
+    (step,) = template["steps"]
+    (frames,) = step["parameterSpace"]["taskParameterDefinitions"]
+    assert frames["range"] == ["1,3,7", "2,4", "5-6"]
+    defaults = {p["name"]: p.get("default") for p in template["parameterDefinitions"]}
+    assert defaults["Input"] == "walk.pclx"
+    assert defaults["Output"] == "lit.%04d.exr"
+    (tmp_path / "elsewhere").mkdir()
+    told = run("job", project, "-o", tmp_path / "elsewhere" / "job.yaml", *words)
+    assert f"-p Input={project} -p Output={tmp_path}/lit.%04d.exr" in told.err
+    assert "--quality=final" in step["script"]["actions"]["onRun"]["args"]
+
+
+def test_jobs_that_cannot_be_are_told(run: Run, tmp_path: Path, ball_png: Path) -> None:
+    project, target = walk(tmp_path, [1]), tmp_path / "job.yaml"
+    assert run("job", project, "-o", tmp_path / "job.txt").code == 1
+    assert run("job", tmp_path / "none.pclx", "-o", target).code == 1
+    assert run("job", ball_png, "-o", target).code == 1  # no number
+    assert run("job", project, "-o", target, "--frames", "5").code == 1
+    assert not target.exists()
+
+
+@pytest.mark.parametrize(
+    "address", ["tcp://scheduler:8786", "tcp://10.0.0.7:1", "scheduler:8786", "ws://a:1", ""]
+)
+def test_clusters_without_tls_are_refused(address: str) -> None:
+    with pytest.raises(LampblackError, match="TLS"):
+        check_address(address)
+
+
+@pytest.mark.parametrize("address", ["tls://scheduler:8786", "tcp://127.0.0.1:1", "tcp://[::1]:1"])
+def test_clusters_over_tls_or_on_this_machine_are_not(address: str) -> None:
+    check_address(address)
+
+
+def test_a_worker_notices_drawings_that_change_between_two_runs(
+    tmp_path: Path, unrendered: list[str]
+) -> None:
+    save_picture(tmp_path / "a.0001.png", draw_ball(64))
+    settings = RenderSettings(inputs=(str(tmp_path / "a.0001.png"),), output=str(tmp_path / "lit"))
+    settings_json = msgspec.json.encode(settings)
+    assert light_group(settings_json, "first", ["a.0001.png"]) == [("a.0001.png", "done", [])]
+    assert light_group(settings_json, "first", ["a.0001.png"]) == [("a.0001.png", "kept", [])]
+    save_picture(tmp_path / "a.0001.png", draw_ball(64, (60, 120, 220)))
+    assert light_group(settings_json, "second", ["a.0001.png"]) == [("a.0001.png", "done", [])]
+    (tmp_path / "a.0001.png").write_text("no picture")
+    ((_, became, words),) = light_group(settings_json, "third", ["a.0001.png"])
+    assert became == "failed"
+    assert "not a PNG" in words[0]
+
+
+def test_a_cluster_that_is_not_there_is_told(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("lampblack.farm.cluster.CONNECT_SECONDS", 0.5)
+    save_picture(tmp_path / "a.0001.png", draw_ball(64))
+    words = ("--cluster", "tcp://127.0.0.1:9")
+    told = run("render", tmp_path / "a.0001.png", "-o", tmp_path / "lit", *words)
+    assert told.code == 1
+    assert "no cluster" in told.err

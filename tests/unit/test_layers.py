@@ -1,0 +1,65 @@
+"""The map in CONTRIBUTING.md: its first table is the order in which stations import each other."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from support.paths import ROOT
+
+WORKER = ROOT / "worker" / "lampblack"
+
+
+def _stations() -> list[str]:
+    """Folders and files of the worker, as the table lists them."""
+    table = (ROOT / "CONTRIBUTING.md").read_text().partition("\n\n|")[2].partition("\n\n")[0]
+    first_cells = (row.split("|")[1] for row in f"|{table}".splitlines()[2:])
+    return [name for cell in first_cells for name in re.findall(r"`(\w+)(?:/|\.py)`", cell)]
+
+
+def _imports(path: Path) -> Iterator[tuple[str, ...]]:
+    """Every module imported anywhere in a file, in functions and for type checkers too."""
+    package = path.relative_to(WORKER.parent).parent.parts
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (tuple(name.name.split(".")) for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) + 1 - node.level] if node.level else ()
+            module = (*base, *(node.module or "").split("."))
+            yield from ((*filter(None, module), name.name) for name in node.names)
+
+
+def _files() -> Iterator[tuple[str, Path]]:
+    """Each file with its station; the package's own ``__init__`` and ``__main__`` have none."""
+    for path in sorted(WORKER.rglob("*.py")):
+        station = path.relative_to(WORKER).with_suffix("").parts[0]
+        if not station.startswith("__"):
+            yield station, path
+
+
+def test_the_map_names_every_station_once() -> None:
+    assert sorted(_stations()) == sorted({station for station, _ in _files()})
+
+
+def test_stations_import_only_those_above_them_on_the_map() -> None:
+    order = _stations()
+    upward = [
+        f"{path.relative_to(ROOT)} imports {'.'.join(module)}"
+        for station, path in _files()
+        for module in _imports(path)
+        if module[0] == "lampblack" and {*module[1:2]} & {*order[order.index(station) + 1 :]}
+    ]
+    assert upward == []
+
+
+def test_only_the_renderer_imports_blender() -> None:
+    """``bpy`` runs in a process of its own: nothing else may load it."""
+    assert {station for station, path in _files() for m in _imports(path) if m[0] == "bpy"} == {
+        "render"
+    }
+
+
+def test_the_worker_does_not_import_research() -> None:
+    assert not [path for _, path in _files() for m in _imports(path) if "research" in m[0]]

@@ -1,0 +1,291 @@
+"""Projects as Pencil2D shows them, and what is refused of those that nobody drew."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from lampblack.choices import LayerRole
+from lampblack.errors import LampblackWarning, ProjectError
+from lampblack.project import read_project
+from lampblack.project.archive import MAX_XML_BYTES
+from lampblack.project.shot import ProjectShot
+from support.command_line import files
+from support.drawings import draw_ball
+from support.projects import (
+    ARCH,
+    PALETTE,
+    STILL,
+    document,
+    exported,
+    image,
+    layer,
+    needs_pencil2d,
+    png,
+    write_project,
+)
+
+Picture = NDArray[np.uint8]
+PAN = (
+    '<camera frame="1" r="0" s="1" dx="0" dy="0"/><camera frame="5" r="0" s="1" dx="-41" dy="18"/>'
+)
+MOVES = (
+    '<camera frame="1" r="0" s="1" dx="10" dy="0"/>'
+    '<camera frame="5" r="30" s="1.7" dx="-20" dy="8"/>'
+)
+
+
+def blob(width: int, height: int, seed: int, alpha: int = 255) -> Picture:
+    """A smooth, opaque or translucent patch."""
+    rows, columns = np.mgrid[0:height, 0:width] / 20 + seed
+    waves = [np.sin(rows * k + columns) for k in (1, 2, 3)]
+    colour = np.stack(waves, axis=2) * 100 + 128
+    return np.dstack([colour, np.full((height, width), alpha)]).astype(np.uint8)
+
+
+FILES = {
+    "far.png": png(blob(190, 150, 1)),
+    "ball.png": png(draw_ball(90)),
+    "near.png": png(blob(40, 30, 3, 128)),
+    "secret.png": png(blob(40, 30, 4)),
+}
+LAYERS = [
+    layer(2, "far", [image(1, "far.png", -95, -75)]),
+    layer(3, "figure", [image(1, "ball.png", -60, -50), image(4, "ball.png", -30, -40)]),
+    layer(4, "hidden", [image(1, "secret.png")], visible=False),
+    layer(5, "near", [image(2, "near.png", -70, 10), image(5, "near.png", 900, 10)]),
+]
+ROLES: dict[str, LayerRole] = {"figure": "character"}
+
+
+def shot_of(path: Path, roles: dict[str, LayerRole] | None = None) -> ProjectShot:
+    return ProjectShot(*read_project(path), roles or {})
+
+
+def unlit(shot: ProjectShot) -> list[Picture]:
+    """Every frame with its cel as drawn."""
+    return [shot.finish(frame, shot.cel(frame).pixels) for frame in shot.frames]
+
+
+def difference(a: Picture, b: Picture) -> NDArray[np.float64]:
+    """Of premultiplied colours, in levels, for each pixel."""
+    one, other = (
+        np.dstack([p[..., :3] * (p[..., 3:] / 255.0), p[..., 3].astype(float)]) for p in (a, b)
+    )
+    worst: NDArray[np.float64] = np.abs(one - other).max(axis=2)
+    return worst
+
+
+@needs_pencil2d
+@pytest.mark.parametrize("roles", [{}, ROLES], ids=["all lit", "one lit"])
+@pytest.mark.parametrize("camera", [STILL, PAN], ids=["still", "pan"])
+def test_frames_are_those_that_pencil2d_exports(
+    tmp_path: Path, camera: str, roles: dict[str, LayerRole]
+) -> None:
+    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=camera), FILES)
+    ours, theirs = unlit(shot_of(path, roles)), exported(path, 1, 5)
+    assert len(ours) == 5
+    for mine, truth in zip(ours, theirs, strict=True):
+        assert difference(mine, truth).max() <= 2
+
+
+@needs_pencil2d
+def test_a_camera_that_turns_and_zooms_shows_what_pencil2d_shows(tmp_path: Path) -> None:
+    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=MOVES), FILES)
+    for mine, truth in zip(unlit(shot_of(path, ROLES)), exported(path, 1, 5), strict=True):
+        off = difference(mine, truth)
+        # Edges are smoothed in another order; what is between them agrees.
+        assert np.mean(off > 3) < 0.02
+        assert off.mean() < 1.5
+
+
+@needs_pencil2d
+@pytest.mark.parametrize("size", [(200, 160), (203, 161)])
+def test_vector_layers_are_drawn_by_pencil2d(tmp_path: Path, size: tuple[int, int]) -> None:
+    layers = [
+        layer(2, "ball", [image(1, "ball.png", -45, -45)]),
+        layer(3, "arch", ['frame="1" src="a.vec"', 'frame="3" src="b.vec"'], kind=2),
+    ]
+    files = {
+        "ball.png": FILES["ball.png"],
+        "a.vec": ARCH.encode(),
+        "b.vec": ARCH.replace('vx="30"', 'vx="70"').encode(),
+        "palette.xml": PALETTE.encode(),
+    }
+    # By whole pixels: Pencil2D rounds where bitmaps go, but not vectors.
+    pan = PAN.replace("-41", "-40").replace("18", "16")
+    path = write_project(tmp_path / "v.pclx", document(layers, camera=pan, size=size), files)
+    ours = unlit(shot_of(path))
+    for mine, truth in zip(ours, exported(path, 1, 5), strict=True):
+        assert difference(mine, truth).max() <= 2
+    assert difference(ours[0], ours[2]).max() > 100
+
+
+def test_without_pencil2d_vector_layers_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    layers = [layer(2, "arch", ['frame="1" src="a.vec"'], kind=2)]
+    path = write_project(tmp_path / "v.pclx", document(layers), {"a.vec": ARCH.encode()})
+    shot = shot_of(path)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(ProjectError, match="'arch'"):
+        shot.cel(shot.frames[0])
+
+
+def test_held_drawings_share_a_name_and_moved_ones_do_not(tmp_path: Path) -> None:
+    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=PAN), FILES)
+    frames = shot_of(path, ROLES).frames
+    assert [frame.name for frame in frames[:2]] == ["walk.0001.png", "walk.0002.png"]
+    assert len({frame.drawing for frame in frames}) == 2
+    assert len({frame.setting for frame in frames}) == 5
+
+
+def test_a_folder_project_is_the_same_as_a_zipped_one(tmp_path: Path) -> None:
+    zipped = write_project(tmp_path / "walk.pclx", document(LAYERS), FILES)
+    folder = write_project(tmp_path / "walk.pcl", document(LAYERS), FILES)
+    pairs = zip(unlit(shot_of(zipped)), unlit(shot_of(folder)), strict=True)
+    assert all(np.array_equal(a, b) for a, b in pairs)
+
+
+def test_opacity_of_a_keyframe_counts(tmp_path: Path) -> None:
+    faint = layer(2, "faint", [image(1, "ball.png", -45, -45, opacity=0.25)])
+    path = write_project(tmp_path / "walk.pclx", document([faint]), FILES)
+    shot = shot_of(path)
+    assert shot.cel(shot.frames[0]).pixels[..., 3].max() == round(255 * 0.25)
+
+
+def test_roles_say_what_is_lit_and_what_lies_around(tmp_path: Path) -> None:
+    line = layer(6, "line", [image(1, "near.png", -70, 10)])
+    lit = layer(7, "Lit", [image(1, "secret.png")])
+    path = write_project(tmp_path / "walk.pclx", document([*LAYERS, line, lit]), FILES)
+    shot = shot_of(path, {"figure": "character", "line": "line"})
+    cel = shot.cel(shot.frames[0])
+    assert cel.ink is not None
+    # "near" lies between figure and line: beneath what is lit, not above it.
+    assert shot._stack.below[1].name == "near"
+    assert not shot._stack.above
+    # The drawing tool's own result is neither lit nor shown.
+    assert "Lit" not in [one.name for one in shot_of(path)._stack.lit]
+
+
+def test_sources_hidden_behind_their_result_are_lit(tmp_path: Path) -> None:
+    hidden = layer(2, "figure", [image(1, "ball.png", -45, -45)], visible=False)
+    result = layer(3, "Lit", [image(1, "secret.png")])
+    path = write_project(tmp_path / "walk.pclx", document([hidden, result]), FILES)
+    assert shot_of(path, ROLES).cel(shot_of(path, ROLES).frames[0]).pixels.any()
+    with pytest.raises(ProjectError, match="visible layers"):
+        shot_of(path)
+    with pytest.warns(LampblackWarning, match="no layer 'figur'"), pytest.raises(ProjectError):
+        shot_of(path, {"figur": "character"})
+
+
+@pytest.mark.parametrize(
+    "source",
+    ["../../secret.png", "/etc/passwd", "..", "", "a/b.png", "C:\\x.png", "..\\x.png", "x" * 300],
+)
+@pytest.mark.parametrize("suffix", [".pclx", ".pcl"])
+def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, source: str, suffix: str) -> None:
+    (tmp_path / "secret.png").write_bytes(FILES["secret.png"])
+    xml = document([layer(2, "figure", [image(1, source)])])
+    path = write_project(tmp_path / f"walk{suffix}", xml, {})
+    shot = shot_of(path)
+    with pytest.raises(ProjectError, match="outside its own folder"):
+        shot.cel(shot.frames[0])
+
+
+def test_links_that_lead_elsewhere_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "secret.png").write_bytes(FILES["secret.png"])
+    xml = document([layer(2, "figure", [image(1, "link.png")])])
+    path = write_project(tmp_path / "walk.pcl", xml, {})
+    (tmp_path / "walk.pcl.data" / "link.png").symlink_to(tmp_path / "secret.png")
+    shot = shot_of(path)
+    with pytest.raises(ProjectError, match="outside its own folder"):
+        shot.cel(shot.frames[0])
+
+
+def test_missing_and_broken_pictures_are_told_by_their_frame(tmp_path: Path) -> None:
+    keys = [image(1, "ball.png"), image(2, "gone.png"), image(3, "bad.png"), image(4, "big.png")]
+    enormous = bytearray(png(draw_ball(32)))
+    enormous[16:24] = (100_000).to_bytes(4, "big") * 2
+    files = {"ball.png": FILES["ball.png"], "bad.png": b"\x89PNG", "big.png": bytes(enormous)}
+    path = write_project(tmp_path / "w.pclx", document([layer(2, "figure", keys)]), files)
+    shot = shot_of(path)
+    assert shot.cel(shot.frames[0]).pixels.any()
+    for frame, words in zip(shot.frames[1:], ("gone.png", "frame 3", "too large"), strict=True):
+        with pytest.raises(ProjectError, match=words):
+            shot.cel(frame)
+
+
+BOMB = """<!DOCTYPE a [<!ENTITY b "bbbbbbbbbb"><!ENTITY c "&b;&b;&b;&b;">]>
+<document><object><layer type="5" width="9" height="9" name="&c;"/></object></document>"""
+OUTSIDE = """<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]>
+<document><object><layer type="5" width="9" height="9" name="&b;"/></object></document>"""
+BALL = layer(2, "figure", [image(1, "ball.png")])
+
+
+@pytest.mark.parametrize(
+    "xml",
+    [
+        "",
+        "<document",
+        "\x00\xff",
+        "<document/>",
+        "<html><object><layer/></object></html>",
+        "<a>" * 100_000,
+        BOMB,
+        OUTSIDE,
+        '<?xml version="1.0" encoding="nonsense"?><document/>',
+        document([]).replace('type="5"', 'type="9"'),
+        document([BALL], size=(0, 9)),
+        document([BALL], size=(1_000_000, 9)),
+        document([BALL], size=(16000, 16000)),
+        document([BALL.replace('frame="1"', 'frame="0"')]),
+        document([BALL.replace('frame="1"', 'frame="1e9"')]),
+        document([BALL.replace('frame="1"', 'frame="900000"')]),
+        document([BALL.replace('topLeftX="0"', 'topLeftX="nan"')]),
+        document([BALL.replace('topLeftX="0"', 'topLeftX="1e300"')]),
+        document([BALL.replace('topLeftX="0"', 'topLeftX="0.5"')]),
+        document([BALL], camera='<camera frame="1" s="0"/>'),
+        document([BALL], camera='<camera frame="1" s="0.002"/>'),
+        document([BALL], camera='<camera frame="1" dx="inf"/>'),
+        document([BALL], camera=STILL + '<camera frame="9" dx="900000" dy="900000"/>'),
+        document([BALL], camera='<camera frame="1"/><camera frame="3" r="180"/>'),
+        document([BALL] * 1001),
+    ],
+)
+def test_descriptions_that_make_no_sense_are_told(tmp_path: Path, xml: str) -> None:
+    path = write_project(tmp_path / "walk.pclx", xml, FILES)
+    with pytest.raises(ProjectError) as told:
+        shot_of(path)
+    assert told.value.what
+
+
+def test_files_that_are_no_projects_are_told(tmp_path: Path) -> None:
+    sound = write_project(tmp_path / "a.pclx", document([BALL]), FILES).read_bytes()
+    huge = io.BytesIO()
+    with zipfile.ZipFile(huge, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("main.xml", b" " * (MAX_XML_BYTES + 1))
+    damaged = bytearray(sound)
+    start = sound.index(b"<!DOCTYPE")
+    damaged[start : start + 50] = bytes(50)
+    for content in (b"", b"text", sound[: len(sound) // 2], huge.getvalue(), bytes(damaged)):
+        path = tmp_path / "bad.pclx"
+        path.write_bytes(content)
+        with pytest.raises(ProjectError):
+            read_project(path)
+    for path in (tmp_path / "none.pclx", tmp_path):
+        with pytest.raises(ProjectError, match="no project"):
+            read_project(path)
+
+
+def test_reading_a_project_writes_nothing_beside_it(tmp_path: Path) -> None:
+    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=MOVES), FILES)
+    before = path.read_bytes()
+    unlit(shot_of(path, ROLES))
+    assert files(tmp_path) == {"walk.pclx"}
+    assert path.read_bytes() == before

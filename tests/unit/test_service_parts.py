@@ -1,0 +1,167 @@
+"""The live worker's parts that need neither socket nor renderer."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lampblack.camera import IDENTITY, scene_in_view
+from lampblack.composite.sheet import premultiplied
+from lampblack.errors import LampblackWarning
+from lampblack.pipeline import Pipeline
+from lampblack.protocol import frame_digest
+from lampblack.scene import Floor, Material, default_scene
+from lampblack.service.bounded import BoundedStore
+from lampblack.service.model import Model, coarse_model
+from lampblack.service.noticed import listen, noticed_warnings
+from lampblack.service.outbox import MAX_WAITING, Outbox
+from lampblack.service.snapshot import Look, Snapshot
+from lampblack.service.source import sources_of
+from lampblack.service.studio import Developed, LightStore
+from lampblack.surface import check_relief
+from support.drawings import draw_ball
+
+SIZE = 160
+LOOK = Look(1, 1, "lit", (0.0, 0.0, float(SIZE), float(SIZE)), (SIZE, SIZE))
+
+
+@pytest.fixture(scope="module")
+def model(pipeline: Pipeline) -> Model:
+    planes = {"pixels": draw_ball(SIZE)}
+    return coarse_model(frame_digest(planes), planes, pipeline)  # type: ignore[arg-type]
+
+
+def test_the_least_lately_used_goes_first() -> None:
+    store: BoundedStore[str, int] = BoundedStore(100)
+    for number, key in enumerate("abc"):
+        store.put(key, number, 40)
+        store.get("a")
+    assert store.get("b") is None
+    assert (store.get("a"), store.get("c"), store.nbytes) == (0, 2, 80)
+    store.put("large", 9, 1000)
+    assert len(store) == 1
+    store.keep(set())
+    assert store.nbytes == 0
+
+
+def test_one_picture_waits_and_everything_else_stays() -> None:
+    outbox = Outbox()
+    for number in range(5):
+        outbox.put([b"picture %d" % number], picture=True)
+        outbox.put([b"word %d" % number])
+    sent = []
+    while (frames := outbox.first()) is not None:
+        sent.append(frames[0])
+        outbox.sent()
+    assert sent == [b"word 0", b"word 1", b"word 2", b"word 3", b"picture 4", b"word 4"]
+    for _ in range(MAX_WAITING + 1):
+        assert not outbox.overflows
+        outbox.put([b""])
+    assert outbox.overflows
+
+
+def test_warnings_are_heard_by_their_own_thread_alone() -> None:
+    heard: dict[str, list[str]] = {}
+    barrier = threading.Barrier(2)
+
+    def warn(sentence: str) -> None:
+        with noticed_warnings() as noticed:
+            barrier.wait()
+            warnings.warn(sentence, LampblackWarning, stacklevel=1)
+            barrier.wait()
+        heard[sentence] = noticed
+
+    with warnings.catch_warnings():
+        listen()
+        threads = [threading.Thread(target=warn, args=(word,)) for word in ("one", "two")]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    assert heard == {"one": ["one"], "two": ["two"]}
+
+
+def test_a_coarse_model_is_a_closed_dome_in_register(model: Model) -> None:
+    relief = model.surface(default_scene(SIZE, SIZE)).relief
+    assert check_relief(relief) == []
+    x, y, z = relief.vertices[: len(relief.vertices) // 2].T
+    assert abs(x.mean() - SIZE / 2) < 1
+    assert abs(y.mean() - SIZE / 2) < 1
+    assert z[np.hypot(x - 80, y - 80) < 8].mean() == pytest.approx(64, rel=0.3)
+    left, top, width, height = model.box
+    assert left < 17 < 143 < left + width
+    assert top < 17 < 143 < top + height
+
+
+def test_a_coarse_model_knows_the_lines(pipeline: Pipeline) -> None:
+    """What is shown first is no mere dome: it is predicted, like what follows."""
+    plain = draw_ball(SIZE)
+    split = plain.copy()
+    split[78:82, 30:130] = 0, 0, 0, 255
+    one, other = (
+        coarse_model("", {"pixels": pixels}, pipeline).normals.astype(int)
+        for pixels in (plain, split)
+    )
+    assert one.shape == other.shape
+    assert np.abs(one - other)[20:60, 20:60].mean() > 3
+
+
+def test_the_camera_takes_the_scene_along() -> None:
+    scene = replace(default_scene(100, 80), floor=Floor(70.0))
+    assert scene_in_view(scene, IDENTITY, (100, 80)) == scene
+    seen = scene_in_view(scene, (2, 0, 30, 0, 2, -10), (300, 200))
+    light, before = seen.lights[0], scene.lights[0]
+    assert (light.x, light.y) == (2 * before.x + 30, 2 * before.y - 10)
+    assert (light.z, light.size) == (2 * before.z, 2 * before.size)
+    assert seen.floor is not None
+    assert seen.floor.y == 130
+    assert seen.canvas.default_height == 2 * scene.canvas.default_height
+
+
+def test_a_change_invalidates_exactly_what_it_shapes(model: Model) -> None:
+    scene = default_scene(SIZE, SIZE)
+    scene = replace(scene, lights=(scene.lights[0], replace(scene.lights[0], x=100.0)))
+    colour = model.sheet.palette.swatches[0].colour
+    shiny = {colour: Material(glossy=True, gloss=0.4)}
+    scene = replace(scene, materials=shiny)
+    store = LightStore()
+    light = np.zeros((2, 2, 3), np.float32)
+
+    def sources(changed: object) -> tuple[object, ...]:
+        return sources_of(Snapshot("", LOOK, model.digest, IDENTITY, 1, changed), model)  # type: ignore[arg-type]
+
+    for source in sources(scene):
+        store.put(source, Developed(2, 8, source.amounts, light, light))  # type: ignore[attr-defined,arg-type]
+
+    def rungs(changed: object) -> list[int]:
+        return [store.rung(source) for source in sources(changed)]  # type: ignore[arg-type]
+
+    first, second = scene.lights
+    assert rungs(scene) == [2, 2, 2]
+    assert rungs(replace(scene, lights=(replace(first, colour="#ff0000", power=3.0), second))) == [
+        2,
+        2,
+        2,
+    ]
+    assert rungs(replace(scene, lights=(replace(first, x=5.0), second))) == [-1, 2, 2]
+    assert rungs(replace(scene, lights=(second, first))) == [2, 2, 2]
+    assert rungs(replace(scene, lights=(first, replace(second, power=0.0)))) == [2, 2]
+    softer = {colour: Material(glossy=True, gloss=0.5)}
+    assert rungs(replace(scene, materials=softer)) == [0, 0, 0]
+    rougher = {colour: Material(glossy=True, gloss=0.4, roughness=0.9)}
+    assert rungs(replace(scene, materials=rougher)) == [-1, -1, -1]
+    assert rungs(replace(scene, relief_scale=2.0)) == [-1, -1, -1]
+    assert rungs(replace(scene, floor=Floor(150.0))) == [-1] * 6
+    store.keep(sources(replace(scene, lights=(first,))))  # type: ignore[arg-type]
+    assert rungs(scene) == [2, -1, 2]
+
+
+def test_premultiplied_and_back_in_register() -> None:
+    picture = draw_ball(SIZE)
+    found = premultiplied(picture)
+    assert np.array_equal(found[..., 3], picture[..., 3])
+    assert (found[..., :3] <= found[..., 3:]).all()
