@@ -27,7 +27,7 @@ from .render import (
     frame_request,
     frame_surface,
 )
-from .render.tracings import Tracings
+from .render.light_pass_cache import LightPassCache
 from .scene import Scene
 from .surface import Relief, build_relief, guided_filter, solve
 
@@ -60,7 +60,7 @@ class Pipeline:
     ) -> None:
         self._cache = cache
         self._niceness = niceness
-        self._tracings = Tracings()
+        self._light_passes = LightPassCache()
         self._steadier = Steadier()
         self.options = options or PipelineOptions()
 
@@ -93,7 +93,7 @@ class Pipeline:
     def rest(self) -> None:
         """End the renderer and let go of its light; the next frame brings both back."""
         self.child.close()
-        self._tracings = Tracings()
+        self._light_passes = LightPassCache()
 
     def warm_up(self) -> None:
         """Load the network and start the renderer before the first drawing comes."""
@@ -202,7 +202,7 @@ class Pipeline:
             found = surface or self.surface(drawing, asked, beside)
             return self.child.render(replace(frame_request(drawing, found, asked), ambient=ambient))
 
-        return self._tracings.complete(drawing, scene, trace)
+        return self._light_passes.complete(drawing, scene, trace)
 
     def render(
         self, drawing: Drawing, scene: Scene, beside: Beside | None = None

@@ -10,8 +10,9 @@ from __future__ import annotations
 import dataclasses
 import functools
 import inspect
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field, replace
+from enum import Enum
 from typing import Annotated, Any, TypeVar, get_type_hints
 
 import msgspec
@@ -37,7 +38,22 @@ Strength = Annotated[float, Meta(ge=0, le=100)]
 Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
 Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
 KeyFrame = Annotated[int, Meta(ge=0, le=999_999, description="frame of the animation")]
-Extra = dict[str, Any]
+
+
+class Affects(Enum):
+    """What a field of the scene changes, where that is not the traced light itself.
+
+    A field without a mark shapes the traced light: whatever is kept is then traced again when
+    the field changes, so that a new field cannot show a stale picture.
+    """
+
+    COMPOSITE = "how traced light is composited"
+    GLOSS = "how much of the glossy light there is: other light stands in until it is traced"
+    SAMPLING = "how finely light is traced"
+    NOTHING = "nothing of the light"
+
+
+Extra = Annotated[dict[str, Any], Affects.NOTHING]
 
 
 @dataclass(frozen=True)
@@ -72,18 +88,34 @@ class AreaLight:
     y: Pixels
     z: Pixels
     size: Diameter = 200.0
-    colour: Colour = "#ffffff"
-    power: Strength = 1.0
-    keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS)] = ()
+    colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
+    power: Annotated[Strength, Affects.COMPOSITE] = 1.0
+    keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
     extra: Extra = field(default_factory=dict)
+
+    @property
+    def geometry(self) -> Hashable:
+        """All that shapes the light of power 1 in white, as it is without keys."""
+        return traced_part(self)
+
+    def neutral(self) -> AreaLight:
+        """The same light as it is traced: white, of power 1, without keys."""
+        kind: Any = type(self)
+        bare = kind(x=0, y=0, z=0)
+        untraced = {
+            name: getattr(bare, name)
+            for name, mark in _marks(kind).items()
+            if mark in {Affects.COMPOSITE, Affects.NOTHING}
+        }
+        return replace(self, **untraced)
 
 
 @dataclass(frozen=True)
 class Ambient:
     """Light from everywhere; strength 1 alone shows an open surface in its drawn colour."""
 
-    colour: Colour = "#ffffff"
-    strength: Strength = 0.3
+    colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
+    strength: Annotated[Strength, Affects.COMPOSITE] = 0.3
     extra: Extra = field(default_factory=dict)
 
 
@@ -95,9 +127,9 @@ class Material:
     exponent, the other way round: 0 is a mirror, 1 is satin).
     """
 
-    diffuse: bool = True
+    diffuse: Annotated[bool, Affects.COMPOSITE] = True
     glossy: bool = False
-    gloss: Unit = 0.5
+    gloss: Annotated[Unit, Affects.GLOSS] = 0.5
     roughness: Annotated[float, Meta(ge=0.02, le=1)] = 0.3
     extra: Extra = field(default_factory=dict)
 
@@ -123,7 +155,7 @@ class Floor:
 
     y: Pixels
     pitch: Pitch = 25.0
-    keys: Annotated[tuple[FloorKey, ...], Meta(max_length=MAX_KEYS)] = ()
+    keys: Annotated[tuple[FloorKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
     extra: Extra = field(default_factory=dict)
 
 
@@ -155,13 +187,26 @@ class Scene:
     default_material: Material = field(default_factory=Material)
     floor: Floor | None = None
     relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
-    quality: QualityName = "low"
-    version: Annotated[int, Meta(ge=VERSION, le=VERSION)] = VERSION
+    quality: Annotated[QualityName, Affects.SAMPLING] = "low"
+    version: Annotated[int, Meta(ge=VERSION, le=VERSION), Affects.NOTHING] = VERSION
     extra: Extra = field(default_factory=dict)
 
     def material(self, colour: str) -> Material:
-        """The material that the flat colour ``#rrggbb`` wears."""
+        """The material of the flat colour ``#rrggbb``."""
         return self.materials.get(colour, self.default_material)
+
+    def render_key(self, *, materials: bool = True, sampling: bool = True) -> Hashable:
+        """All that shapes the traced light, but for the area lights, each of which has a
+        ``geometry`` of its own.
+
+        Args:
+            materials: False where those of one drawing's colours are compared instead.
+            sampling: False where it does not matter how finely light is traced.
+        """
+        scene = replace(self, lights=())
+        if not materials:
+            scene = replace(scene, materials={}, default_material=Material())
+        return traced_part(scene, *(() if sampling else (Affects.SAMPLING,)))
 
 
 def default_light(canvas: Canvas, x: float, y: float, z: float | None = None) -> AreaLight:
@@ -244,6 +289,39 @@ def normalize_schema(definition: dict[str, Any]) -> None:
 
 
 Node = TypeVar("Node")
+
+
+def traced_part(node: Any, *ignored: Affects) -> Hashable:
+    """All that shapes traced light in ``node``, a part of the scene, as a value to compare.
+
+    Args:
+        ignored: fields with these marks are left out as well.
+    """
+    if dataclasses.is_dataclass(node) and not isinstance(node, type):
+        leave = {Affects.COMPOSITE, Affects.NOTHING, *ignored}
+        return tuple(
+            (name, traced_part(getattr(node, name), *ignored))
+            for name, mark in _marks(type(node)).items()
+            if mark not in leave
+        )
+    if isinstance(node, tuple | list):
+        return tuple(traced_part(item, *ignored) for item in node)
+    if isinstance(node, dict):
+        return tuple((key, traced_part(node[key], *ignored)) for key in sorted(node))
+    return node  # type: ignore[no-any-return]
+
+
+@functools.cache
+def _marks(kind: type[Any]) -> dict[str, Affects | None]:
+    """The mark of each field of a part of the scene."""
+    hints = get_type_hints(kind, include_extras=True)
+    return {
+        one.name: next(
+            (m for m in getattr(hints[one.name], "__metadata__", ()) if isinstance(m, Affects)),
+            None,
+        )
+        for one in dataclasses.fields(kind)
+    }
 
 
 def _from_builtins(tree: Mapping[str, Any], kind: type[Node]) -> Node:

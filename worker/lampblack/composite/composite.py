@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..colour import hex_linear, linear, srgb
 from ..drawing.drawing import Drawing
+from ..materials import MaterialTable
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene
 from .borders import blends, swatch_albedos
@@ -145,7 +146,7 @@ def figure_light(
     """Diffuse light, glossy light, and colours left as drawn, of the fill in ``band``;
     scene-linear (H, W, 3), unbounded."""
     albedo = linear(drawing.albedo)
-    materials = _Materials.of(drawing, scene)
+    materials = MaterialTable.of(scene, drawing.palette.colours)
     none = np.zeros_like(albedo)
     diffuse = _gather(sources, "diffuse", band) if materials.diffuse.any() else none
     glossy = _gather(sources, "glossy", band) if materials.glossy.any() else none
@@ -155,51 +156,35 @@ def figure_light(
         albedo[blend], share[blend, None] * swatch_albedos(drawing.palette)[other[blend]]
     )
     albedo[blend] -= theirs
-    found = materials.light(drawing.labels, albedo, 1 - share[..., None], diffuse, glossy)
-    second = materials.light(
-        other[blend], theirs, share[blend, None], diffuse[blend], glossy[blend]
+    found = _reflected(materials, drawing.labels, albedo, 1 - share[..., None], diffuse, glossy)
+    second = _reflected(
+        materials, other[blend], theirs, share[blend, None], diffuse[blend], glossy[blend]
     )
     for whole, part in zip(found, second, strict=True):
         whole[blend] += part
     return found
 
 
-@dataclass(frozen=True)
-class _Materials:
-    """Of each label, (n + 1, 1); the last is that of label -1, past the edge."""
-
-    diffuse: NDArray[np.bool_]
-    glossy: NDArray[np.bool_]
-    gloss: NDArray[np.float32]
-
-    @staticmethod
-    def of(drawing: Drawing, scene: Scene) -> _Materials:
-        used = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
-        used.append(scene.default_material)
-        return _Materials(
-            np.array([[m.diffuse] for m in used]),
-            np.array([[m.glossy] for m in used]),
-            np.array([[m.gloss] for m in used], np.float32),
-        )
-
-    def light(
-        self,
-        labels: NDArray[np.int16],
-        albedo: Floats,
-        share: Floats,
-        diffuse: Floats,
-        glossy: Floats,
-    ) -> tuple[Floats, Floats, Floats]:
-        """Diffuse light, glossy light, and colours left as drawn, (..., 3) each, of parts of
-        pixels: ``albedo`` is weighted by their ``share`` (..., 1)."""
-        has_diffuse, has_glossy = self.diffuse[labels], self.glossy[labels]
-        shine = self.gloss[labels] * glossy
-        none = np.float32(0)
-        return (
-            np.where(has_diffuse, albedo * diffuse, none),
-            np.where(has_glossy, np.where(has_diffuse, share * shine, albedo * shine), none),
-            np.where(has_diffuse | has_glossy, none, albedo),
-        )
+def _reflected(
+    materials: MaterialTable,
+    labels: NDArray[np.int16],
+    albedo: Floats,
+    share: Floats,
+    diffuse: Floats,
+    glossy: Floats,
+) -> tuple[Floats, Floats, Floats]:
+    """Diffuse light, glossy light, and colours left as drawn, (..., 3) each, of parts of
+    pixels: ``albedo`` is weighted by their ``share`` (..., 1)."""
+    has_diffuse, has_glossy = (
+        kind[labels][..., None] for kind in (materials.diffuse, materials.glossy)
+    )
+    shine = materials.gloss[labels][..., None] * glossy
+    none = np.float32(0)
+    return (
+        np.where(has_diffuse, albedo * diffuse, none),
+        np.where(has_glossy, np.where(has_diffuse, share * shine, albedo * shine), none),
+        np.where(has_diffuse | has_glossy, none, albedo),
+    )
 
 
 def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:

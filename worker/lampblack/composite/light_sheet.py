@@ -13,6 +13,7 @@ from scipy import ndimage
 
 from ..colour import linear, srgb
 from ..drawing.palette import Palette
+from ..materials import MaterialTable
 from ..scene import Scene, default_scene
 from .borders import swatch_albedos
 from .composite import KNEE, ROUNDING
@@ -69,16 +70,14 @@ def light_sheet(sheet: Sheet, crop: Box, light: Light, scene: Scene) -> NDArray[
         light: of the colours, powers and amounts of ``scene``.
         scene: its materials.
     """
-    materials = [scene.material(swatch.colour) for swatch in sheet.palette.swatches]
-    materials.append(scene.default_material)  # label -1: past the edge
-    kinds = np.array([m.diffuse + 2 * m.glossy for m in materials], np.uint8)
-    gloss = np.array([m.gloss for m in materials], np.float32)
+    materials = MaterialTable.of(scene, sheet.palette.colours)
+    kinds = materials.diffuse.astype(np.uint8) + 2 * materials.glossy.astype(np.uint8)
     height, width = sheet.ink.shape
     lit = np.empty((height, width, 4), np.uint8)
     _light(
         sheet.pixels, sheet.albedo, sheet.ink, sheet.ink_colour, sheet.coverage,
         sheet.labels, sheet.others, sheet.shares,
-        swatch_albedos(sheet.palette), kinds, gloss,
+        swatch_albedos(sheet.palette), kinds, materials.gloss,
         light.diffuse, light.glossy, _steps(crop, sheet.size, light.figure),
         _UNIT if light.floor is None else light.floor,
         _UNSHADED if light.floor is None else _unshaded(light.floor), light.floor is not None,

@@ -38,6 +38,11 @@ class Palette:
 
     swatches: tuple[Swatch, ...]
 
+    @property
+    def colours(self) -> tuple[str, ...]:
+        """``#rrggbb`` of each swatch, in the order of the labels."""
+        return tuple(swatch.colour for swatch in self.swatches)
+
 
 def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]:
     """The flat colours of ``fill`` and which of them each pixel wears.

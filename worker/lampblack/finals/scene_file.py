@@ -13,6 +13,7 @@ from trimesh.visual.texture import TextureVisuals
 
 from ..atomic import atomic_file, atomic_path
 from ..drawing import Drawing
+from ..materials import MaterialTable
 from ..normals.temporal.steady import Beside
 from ..pipeline import Pipeline
 from ..render import frame_request, standing_on
@@ -41,11 +42,10 @@ def save_scene(
         return
     request = frame_request(drawing, surface, scene)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
-    materials = [scene.material(swatch.colour) for swatch in drawing.palette.swatches]
-    materials.append(scene.default_material)
+    materials = MaterialTable.of(scene, drawing.palette.colours)
     worn = drawing.labels[standing_on(drawing.labels, relief.vertices)]
-    diffuse = np.array([m.diffuse for m in materials], np.float32)[worn]
-    unlit = np.array([not (m.diffuse or m.glossy) for m in materials], np.float32)[worn]
+    diffuse = materials.diffuse[worn].astype(np.float32)
+    unlit = (~(materials.diffuse | materials.glossy))[worn].astype(np.float32)
     with atomic_path(path) as temporary:
         pipeline.child.save_blend(request, scene.ambient, ink, diffuse, unlit, temporary.resolve())
 

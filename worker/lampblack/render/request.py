@@ -11,6 +11,7 @@ from scipy import ndimage
 from ..colour import linear
 from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
+from ..materials import MaterialTable
 from ..scene import AreaLight, Canvas, Floor, Scene
 from ..surface.relief import Relief
 from .quality import QUALITIES, Quality
@@ -110,8 +111,5 @@ def dress(
         albedo: (V, 3) sRGB in 0..1 of the pixel each vertex stands on.
         labels: (V,) index into ``palette`` of that pixel, -1 for none.
     """
-    materials = [scene.material(swatch.colour) for swatch in palette.swatches]
-    materials.append(scene.default_material)
-    gloss = np.array([m.gloss if m.glossy else 0.0 for m in materials], np.float32)
-    roughness = np.array([m.roughness for m in materials], np.float32)
-    return Surface(relief, linear(albedo), gloss[labels], roughness[labels])
+    materials = MaterialTable.of(scene, palette.colours)
+    return Surface(relief, linear(albedo), materials.gloss[labels], materials.roughness[labels])

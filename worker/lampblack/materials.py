@@ -1,0 +1,49 @@
+"""The materials of one drawing: what the composite and the renderer look up by label."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .scene import Affects, Scene, traced_part
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialTable:
+    """Materials by label, n + 1 of them. Label -1, past the drawing's edge, is the last: the
+    default material.
+
+    Attributes:
+        diffuse, glossy: (n + 1,) bool.
+        gloss: (n + 1,) float32 in 0..1, amount of the glossy lobe; 0 where not glossy.
+        roughness: (n + 1,) float32 in 0.02..1.
+        key: all that shapes traced light, but for the amounts of gloss.
+        amounts: ``gloss`` as a value to compare.
+    """
+
+    diffuse: NDArray[np.bool_]
+    glossy: NDArray[np.bool_]
+    gloss: NDArray[np.float32]
+    roughness: NDArray[np.float32]
+    key: Hashable
+    amounts: tuple[float, ...]
+
+    @staticmethod
+    def of(scene: Scene, colours: Iterable[str]) -> MaterialTable:
+        """The materials of flat ``colours``, ``#rrggbb`` in the order of their labels."""
+        materials = [*map(scene.material, colours), scene.default_material]
+        amounts = tuple(m.gloss if m.glossy else 0.0 for m in materials)
+        return MaterialTable(
+            diffuse=np.array([m.diffuse for m in materials], np.bool_),
+            glossy=np.array([m.glossy for m in materials], np.bool_),
+            gloss=np.array(amounts, np.float32),
+            roughness=np.array([m.roughness for m in materials], np.float32),
+            key=tuple(
+                (amount > 0, traced_part(material, Affects.GLOSS))
+                for amount, material in zip(amounts, materials, strict=True)
+            ),
+            amounts=amounts,
+        )
