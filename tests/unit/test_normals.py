@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
-import trimesh
 from numpy.typing import NDArray
 
 from lampblack.normals.card import NetworkCard, load_network, shipped_weights
@@ -17,10 +16,6 @@ from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.predict_figure import figure_vectors, mean_vectors
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
-from lampblack_research.dataset.gbuffer import MARGIN, trace, view_rotation
-from lampblack_research.dataset.linework import Hand, draw_lines
-from lampblack_research.dataset.models import Model
-from lampblack_research.training.tiles import normal_loss
 
 Image = NDArray[np.float32]
 
@@ -38,12 +33,6 @@ def angles(a: Image, b: Image) -> Image:
     return np.degrees(np.arccos(np.clip(np.einsum("...c,...c->...", a, b), -1, 1)))
 
 
-def sphere_model() -> Model:
-    mesh = trimesh.creation.icosphere(subdivisions=4)
-    vertices = mesh.vertices.astype(np.float32)
-    return Model("sphere", vertices, mesh.faces.astype(np.int32), vertices[mesh.faces], False)
-
-
 def quiet_network(architecture: str, px: tuple[int, int] | None = None) -> NormalPredictor:
     """An untrained predictor: enough for all that does not depend on the weights."""
     torch.manual_seed(0)
@@ -55,34 +44,6 @@ def quiet_network(architecture: str, px: tuple[int, int] | None = None) -> Norma
 
 
 both_kinds = pytest.mark.parametrize("architecture", ["figure-net", "dilated-unet"])
-
-
-def test_trace_of_a_sphere_is_exact() -> None:
-    view = trace(sphere_model(), view_rotation(30, 20), 200)
-    size = 200 + 2 * MARGIN
-    mask, truth = ball(size, 100.0)
-    assert view.mask.shape == (size, size)
-    assert (view.mask != mask).mean() < 0.005
-    both = view.mask & mask & (truth[..., 2] > 0.15)
-    assert angles(view.normals, truth)[both].max() < 1.0
-    depth = view.depth - view.depth.max()
-    assert np.abs(depth - 100 * (truth[..., 2] - 1))[both].max() < 0.6
-
-
-def test_views_turn_the_way_the_angles_say() -> None:
-    nose = np.array([0.0, 0.0, 1.0])
-    assert np.allclose(view_rotation(0, 0) @ nose, nose)
-    assert np.allclose(view_rotation(90, 0) @ nose, [-1, 0, 0], atol=1e-6)
-    assert (view_rotation(0, 30) @ nose)[1] < 0  # seen from above, the nose sinks
-
-
-def test_line_follows_the_silhouette_of_a_sphere_only() -> None:
-    view = trace(sphere_model(), view_rotation(0, 0), 200)
-    lines = draw_lines(view, Hand(width=3), np.random.default_rng(0))
-    rim = view.mask & (view.normals[..., 2] < 0.3)
-    assert lines[~view.mask].max() == 0
-    assert lines[rim].mean() > 0.3
-    assert lines[view.mask & (view.normals[..., 2] > 0.5)].max() == 0
 
 
 @pytest.mark.parametrize("peer", [lumo_normals, inflated_normals])
@@ -134,17 +95,8 @@ def test_network_is_the_papers_shape() -> None:
     assert out.shape == (2, 3, TILE, TILE)
     assert out.abs().max() <= 1
     assert not (out * (1 - tiles[:, 3:4])).any()
-    normal_loss(out, out.detach() + 0.1, tiles[:, 3:4]).backward()  # type: ignore[no-untyped-call]
+    out.square().sum().backward()  # type: ignore[no-untyped-call]
     assert all(p.grad is not None and p.grad.abs().sum() > 0 for p in network.parameters())
-
-
-def test_loss_is_one_minus_cosine_for_unit_normals() -> None:
-    a = torch.nn.functional.normalize(torch.randn(1, 3, 8, 8), dim=1)
-    b = torch.nn.functional.normalize(torch.randn(1, 3, 8, 8), dim=1)
-    mask = torch.zeros(1, 1, 8, 8)
-    mask[..., :4] = 1
-    expected = (1 - (a * b).sum(dim=1))[..., :4].mean()
-    assert normal_loss(a, b, mask).item() == pytest.approx(expected.item(), rel=1e-5)
 
 
 def test_the_predecessor_sees_no_mask_and_has_its_size() -> None:

@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from embreex.mesh_construction import TriangleMesh
-from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 from PIL import Image
 from scipy import ndimage
@@ -20,7 +18,7 @@ from ..normals.temporal.steady import Beside
 from ..pipeline import Pipeline
 from ..render import LightPasses, Passes, frame_request, frame_surface
 from ..scene import Material, Scene
-from ..surface import Relief
+from ..surface import Relief, visible_faces
 
 FARTHEST = 40.0
 """Degrees that the relief turns to either side."""
@@ -103,18 +101,11 @@ def _turned(vertices: Floats, middle: Floats, degrees: float) -> Floats:
 def _seen(drawing: Drawing, relief: Relief, turned: Relief, size: tuple[int, int]) -> Drawing:
     """The drawing on the turned relief, as if it had been drawn so: every pixel, (rows, columns),
     shows what is drawn where the ray through it meets the surface."""
-    scene = EmbreeScene()
-    TriangleMesh(scene, turned.vertices[turned.faces])
-    rows, columns = np.mgrid[0 : size[0], 0 : size[1]].astype(np.float32)
-    top = np.full(rows.shape, turned.vertices[:, 2].max() + 1, np.float32)
-    origins = np.stack([columns + 0.5, rows + 0.5, top], axis=-1).reshape(-1, 3)
-    towards = np.tile(np.array([[0, 0, -1]], np.float32), (len(origins), 1))
-    hit = scene.run(origins, towards, query="INTERSECT", output=True)
-    inside = hit["primID"] >= 0
-    u, v = hit["u"][inside, None], hit["v"][inside, None]
-    corners = relief.vertices[relief.faces[hit["primID"][inside]], :2]
+    hit = visible_faces(turned.vertices, turned.faces, size)
+    mask = hit.face >= 0
+    u, v = hit.u[mask, None], hit.v[mask, None]
+    corners = relief.vertices[relief.faces[hit.face[mask]], :2]
     x, y = ((1 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]).T - 0.5
-    mask = inside.reshape(size)
 
     def looked_up(layer: Floats) -> Floats:
         planes = layer.reshape(*layer.shape[:2], -1)

@@ -4,6 +4,7 @@ from .export import save_mesh
 from .guided import guided_filter
 from .relief import Relief, build_relief, check_relief
 from .solver import Solver, solve
+from .visible import visible_faces
 
 __all__ = [
     "Relief",
@@ -13,4 +14,5 @@ __all__ = [
     "guided_filter",
     "save_mesh",
     "solve",
+    "visible_faces",
 ]

@@ -29,7 +29,7 @@ from lampblack_research.training.curve import SIZE
 from lampblack_research.training.figure_loss import Batch, angles
 from lampblack_research.training.figures import FigureCourse, figure_of, sample
 from lampblack_research.training.normalisation import retake_statistics
-from lampblack_research.training.tiles import view_of
+from lampblack_research.training.tiles import normal_loss, view_of
 from lampblack_research.training.train import TrainingOptions, train
 
 
@@ -324,3 +324,12 @@ def test_shipped_weights_are_small_and_described() -> None:
     assert shipped_weights().stat().st_size < 20_000_000
     assert card.measured is not None
     assert all(torch.isfinite(p).all() for p in network.parameters())
+
+
+def test_loss_is_one_minus_cosine_for_unit_normals() -> None:
+    a = torch.nn.functional.normalize(torch.randn(1, 3, 8, 8), dim=1)
+    b = torch.nn.functional.normalize(torch.randn(1, 3, 8, 8), dim=1)
+    mask = torch.zeros(1, 1, 8, 8)
+    mask[..., :4] = 1
+    expected = (1 - (a * b).sum(dim=1))[..., :4].mean()
+    assert normal_loss(a, b, mask).item() == pytest.approx(expected.item(), rel=1e-5)

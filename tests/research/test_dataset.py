@@ -11,6 +11,7 @@ import pytest
 import trimesh
 from PIL import Image
 from scipy import ndimage
+from shapes import sphere_model
 
 from lampblack.errors import LampblackError
 from lampblack_research.dataset.anatomy.clay import Clay
@@ -27,12 +28,6 @@ from lampblack_research.dataset.viewpoints import viewpoint
 from support.command_line import Run
 
 OPTIONS = DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
-
-
-def sphere_model(subdivisions: int = 3) -> Model:
-    mesh = trimesh.creation.icosphere(subdivisions=subdivisions)
-    vertices = mesh.vertices.astype(np.float32)
-    return Model("a/ball", vertices, mesh.faces.astype(np.int32), vertices[mesh.faces], False)
 
 
 @pytest.fixture

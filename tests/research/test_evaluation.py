@@ -7,28 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from numpy.typing import NDArray
+from shapes import angles, ball
 
 from lampblack.normals.silhouette import flat_normals, lumo_normals
 from lampblack_research.evaluation.evaluate import PEERS, evaluate
 from lampblack_research.evaluation.laigter import laigter_normals
 from lampblack_research.evaluation.lumo_mixed import lumo_mixed_normals
 from lampblack_research.evaluation.metrics import bootstrap, means, measure
-
-Image = NDArray[np.float32]
-
-
-def ball(size: int, radius: float) -> tuple[NDArray[np.bool_], Image]:
-    """Mask and exact normals of a sphere in the middle of the picture."""
-    rows, columns = np.mgrid[0:size, 0:size] + 0.5 - size / 2
-    x, y = columns / radius, -rows / radius
-    mask = np.hypot(x, y) < 1
-    z = np.sqrt(np.maximum(1 - x * x - y * y, 0))
-    return mask, (np.stack([x, y, z], axis=2) * mask[..., None]).astype(np.float32)
-
-
-def angles(a: Image, b: Image) -> Image:
-    return np.degrees(np.arccos(np.clip(np.einsum("...c,...c->...", a, b), -1, 1)))
 
 
 def test_the_truth_has_no_error_and_flat_has_its_own() -> None:
