@@ -80,3 +80,8 @@ class ArrayCache:
                 return
             path.unlink(missing_ok=True)
             excess -= size
+
+
+def surface_cache() -> ArrayCache:
+    """The cache of normals and heights that all programs of this user share."""
+    return ArrayCache(user_cache_folder() / "surfaces")

@@ -1,4 +1,4 @@
-"""The closed lists of names that scenes, render settings and the command line share."""
+"""Choices and defaults that scenes, render settings and the command line share."""
 
 from typing import Literal
 
@@ -13,3 +13,6 @@ SolverName = Literal["direct", "adam"]
 
 LayerRole = Literal["character", "line", "background"]
 """What a layer of a project is."""
+
+DEFAULT_GRIDS = 0
+"""Grids of tiles whose predicted normals are averaged; 0 predicts the whole character at once."""

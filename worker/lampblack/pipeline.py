@@ -13,10 +13,10 @@ import torch
 from numpy.typing import NDArray
 
 from .cache import ArrayCache, digest
-from .choices import SolverName
+from .choices import DEFAULT_GRIDS, SolverName
 from .composite import composite
 from .drawing import Drawing
-from .normals.predict import DEFAULT_GRIDS, NormalPredictor
+from .normals.predict import NormalPredictor
 from .normals.temporal.miniature import Miniature, miniature
 from .normals.temporal.steady import Beside, Steadier
 from .render import (

@@ -7,8 +7,9 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import DEFAULT_GRIDS
 from ..drawing import take_apart
-from ..normals.predict import DEFAULT_GRIDS, NormalPredictor
+from ..normals.predict import NormalPredictor
 from ..normals.predict_tiles import PAPER_GRIDS
 from ..surface import build_relief, guided_filter, solve
 

@@ -2,70 +2,54 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
-from importlib import import_module
-
 import typer
 
 from .. import __version__
-from .bench import bench
-from .console import EXIT_INTERRUPTED, console, for_people
-from .doctor import doctor
-from .export import export
-from .job import job
-from .render import render
-from .serve import serve
-from .stages import palette, scene
-from .surface import mesh, normals
-from .turntable import turntable
+from .console import for_people
+from .lazy import Commands, group_of
 
-research = import_module("lampblack_research.cli")
-"""Named only here: nothing imports it."""
+COMMANDS: Commands = {
+    "render": ("lampblack.cli.render:render", "Light drawings, or the frames of a project."),
+    "job": ("lampblack.cli.job:job", "Write an OpenJD job template that lights a shot."),
+    "serve": ("lampblack.cli.serve:serve", "Serve a drawing program with previews and renders."),
+    "normals": ("lampblack.cli.surface:normals", "Predict the normal maps of drawings."),
+    "mesh": ("lampblack.cli.surface:mesh", "Inflate drawings into closed relief meshes."),
+    "turntable": ("lampblack.cli.turntable:turntable", "Show a drawing's relief from the sides."),
+    "export": ("lampblack.cli.export:export", "Write one frame as a 3D scene for other programs."),
+    "palette": ("lampblack.cli.stages:palette", "List the flat colours of drawings."),
+    "scene": ("lampblack.cli.stages:scene", "Write a scene file to start from."),
+    "train": ("lampblack_research.cli.train:train", "Train a normal network."),
+    "evaluate": (
+        "lampblack_research.cli.evaluate:evaluate",
+        "Compare predicted normals with the truth.",
+    ),
+    "flicker": (
+        "lampblack_research.cli.flicker:flicker",
+        "Measure how much normals change from drawing to drawing.",
+    ),
+    "bench": ("lampblack.cli.bench:bench", "Measure speed on this machine."),
+    "doctor": ("lampblack.cli.doctor:doctor", "Check this installation part by part."),
+}
+DATASET_COMMANDS: Commands = {
+    "build": ("lampblack_research.cli.dataset:build", "Draw models from many sides."),
+}
 
 app = typer.Typer(
+    cls=group_of(COMMANDS),
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
-    help="Light hand-drawn animation with real global illumination.",
 )
-
-
-def _interruptible(command: Callable[..., None]) -> Callable[..., None]:
-    """Ctrl-C ends ``command`` with a sentence, before typer ends it without one."""
-
-    @functools.wraps(command)
-    def call(*arguments: object, **options: object) -> None:
-        try:
-            command(*arguments, **options)
-        except KeyboardInterrupt:
-            console.print("Interrupted; what was finished is kept.")
-            raise typer.Exit(EXIT_INTERRUPTED) from None
-
-    return call
-
-
-for command in (
-    render,
-    job,
-    serve,
-    normals,
-    mesh,
-    turntable,
-    export,
-    palette,
-    scene,
-    research.train,
-    research.evaluate,
-    research.flicker,
-    bench,
-    doctor,
-):
-    app.command()(_interruptible(command))
-dataset = typer.Typer(no_args_is_help=True, help="Drawings of models, with exact truth.")
-dataset.command()(_interruptible(research.build))
-app.add_typer(dataset, name="dataset")
+app.add_typer(
+    typer.Typer(
+        cls=group_of(DATASET_COMMANDS),
+        callback=lambda: None,
+        no_args_is_help=True,
+        help="Make data sets of drawings with exact truth.",
+    ),
+    name="dataset",
+)
 
 
 def _version(wanted: bool) -> None:
@@ -76,7 +60,9 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def options(
-    version: bool = typer.Option(False, "--version", callback=_version, is_eager=True),
+    version: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Show the version and exit."
+    ),
 ) -> None:
     """Light hand-drawn animation with real global illumination."""
 

@@ -3,66 +3,65 @@
 from __future__ import annotations
 
 import sys
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
-import msgspec
 import typer
 
-from ..drawing import load_picture, take_apart
 from ..errors import LampblackError
-from ..finals.scene_overrides import read_scene
-from ..scene import Scene, default_scene
+
+if TYPE_CHECKING:
+    from ..scene import Scene
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 
-
-class Benchmark(StrEnum):
-    """What can be measured."""
-
-    INFLATE = "inflate"
-    NORMALS = "normals"
-    FINAL = "final"
-    RELIGHT = "relight"
-    ANIMATION = "animation"
+Benchmark = Literal["inflate", "normals", "final", "relight", "animation"]
 
 
 def bench(
-    what: Benchmark,
+    what: Annotated[Benchmark, typer.Argument(help="The stage to measure.")],
     drawing: Annotated[
         Path | None,
-        typer.Argument(metavar="[DRAWING]", help="Default: an example. Of animation: a shot."),
+        typer.Argument(
+            metavar="[DRAWING]",
+            help="A PNG; for animation a project or folder. Default: an example.",
+        ),
     ] = None,
     scene: Annotated[
-        Path | None, typer.Option("--scene", help="For all but inflate, normals.")
+        Path | None,
+        typer.Option(
+            "--scene", metavar="FILE", help="Scene file for final, relight and animation."
+        ),
     ] = None,
     reference: Annotated[
-        bool, typer.Option("--reference", help="final: also measure noise (minutes).")
+        bool,
+        typer.Option("--reference", help="For final: measure the noise too; takes minutes."),
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")] = False,
 ) -> None:
     """Measure speed on this machine.
 
     Example: lampblack bench inflate --json
     """
-    if what is Benchmark.ANIMATION:
+    from ..drawing import load_picture, take_apart
+
+    if what == "animation":
         from ..bench.animation import bench_animation
 
         _show(bench_animation(drawing or _example("lamplighter.pclx"), scene), as_json)
         return
     picture = load_picture(drawing or _example("character.png"))
-    if what is Benchmark.INFLATE:
+    if what == "inflate":
         from ..bench.inflate import bench_inflate
         from ..normals.predict import NormalPredictor
 
         taken = take_apart(picture)
         figures = bench_inflate(NormalPredictor().predict(taken.lines, taken.mask), taken.mask)
-    elif what is Benchmark.NORMALS:
+    elif what == "normals":
         from ..bench.normals import bench_normals
 
         figures = bench_normals(picture)
-    elif what is Benchmark.RELIGHT:
+    elif what == "relight":
         from ..bench.relight import bench_relight
 
         figures = bench_relight(picture, _scene(scene, drawing, picture.shape))
@@ -74,6 +73,8 @@ def bench(
 
 
 def _show(figures: dict[str, float], as_json: bool) -> None:
+    import msgspec
+
     figures = {n: float(f"{v:.4g}") if isinstance(v, float) else v for n, v in figures.items()}
     if as_json:
         sys.stdout.write(msgspec.json.encode(figures).decode() + "\n")
@@ -83,6 +84,9 @@ def _show(figures: dict[str, float], as_json: bool) -> None:
 
 
 def _scene(path: Path | None, drawing: Path | None, shape: tuple[int, ...]) -> Scene:
+    from ..finals.scene_overrides import read_scene
+    from ..scene import default_scene
+
     if path is not None:
         return read_scene(path)
     if drawing is None:

@@ -1,21 +1,24 @@
-"""What people read: progress, warnings and errors, all on stderr."""
+"""What people read: progress, warnings and errors, all on stderr.
+
+``rich`` is imported when there is something to show: ``--help`` should not wait for it.
+"""
 
 from __future__ import annotations
 
+import functools
 import signal
 import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import NoReturn
-
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from typing import TYPE_CHECKING, NoReturn
 
 from ..errors import LampblackError, LampblackWarning
 
-console = Console(stderr=True, highlight=False, soft_wrap=True)
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.progress import Progress
 
 EXIT_FAILED = 1
 EXIT_UNLIT = 3
@@ -23,21 +26,33 @@ EXIT_UNLIT = 3
 EXIT_INTERRUPTED = 130
 
 
+@functools.cache
+def _console() -> Console:
+    from rich.console import Console
+
+    return Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def say(text: str, style: str = "") -> None:
+    """Print a line."""
+    _console().print(text, style=style, markup=False)
+
+
 def print_error(error: LampblackError, subject: str = "") -> None:
     """What happened, what to do, and details to copy."""
-    console.print("[bold red]error:[/] ", end="")
-    console.print(subject + error.what, markup=False)
+    _console().print("[bold red]error:[/] ", end="")
+    say(subject + error.what)
     if error.remedy:
-        console.print(f"  {error.remedy}", markup=False)
+        say(f"  {error.remedy}")
     if error.details:
-        console.print(f"  details: {error.details}", markup=False, style="dim")
+        say(f"  details: {error.details}", "dim")
 
 
 def _print_warning(
     message: Warning | str, category: type[Warning], *_: object, **__: object
 ) -> None:
-    console.print("[bold yellow]warning:[/] ", end="")
-    console.print(str(message), markup=False)
+    _console().print("[bold yellow]warning:[/] ", end="")
+    say(str(message))
 
 
 def _terminate(number: int, frame: FrameType | None) -> NoReturn:
@@ -46,7 +61,7 @@ def _terminate(number: int, frame: FrameType | None) -> NoReturn:
 
 @contextmanager
 def for_people() -> Iterator[None]:
-    """Run a command: warnings and faults are told in sentences, and the exit code says which.
+    """Run a command: warnings and errors are printed as sentences, and set the exit code.
 
     SIGTERM and a closed terminal unwind like Ctrl-C does, so that no half-written file and no
     child stay behind.
@@ -68,12 +83,14 @@ def for_people() -> Iterator[None]:
 
 def progress_bar() -> Progress:
     """A bar that leaves no trace when it is done; silent where there is no terminal."""
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
-        console=console,
+        console=_console(),
         transient=True,
-        disable=not console.is_terminal,
+        disable=not _console().is_terminal,
     )

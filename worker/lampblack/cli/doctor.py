@@ -10,7 +10,6 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import typer
 
 from .. import __version__
@@ -19,7 +18,9 @@ from .console import EXIT_FAILED, print_error
 
 
 def doctor() -> None:
-    """Check this installation part by part, ending with a tiny render.
+    """Check this installation part by part.
+
+    The last check renders a tiny picture.
 
     Example: lampblack doctor
     """
@@ -52,11 +53,15 @@ def _temporary_folder() -> str:
     folder = tempfile.gettempdir()
     free = shutil.disk_usage(folder).free / 2**30
     if free < 0.5:
-        raise LampblackError(f"{folder} has {free:.1f} GiB left.", "Make room, or set TMPDIR.")
+        raise LampblackError(
+            f"{folder} has {free:.1f} GiB left.", "Make room, or set TMPDIR to another folder."
+        )
     return f"{folder}, {free:.0f} GiB free"
 
 
 def _network() -> str:
+    import numpy as np
+
     from ..normals.card import shipped_weights
     from ..normals.predict import NormalPredictor
 
@@ -71,16 +76,13 @@ def _network() -> str:
 
 
 def _cycles() -> str:
-    from ..cache import ArrayCache
-    from ..drawing import take_apart
-    from ..pipeline import Pipeline
-    from ..scene import default_scene
+    import numpy as np
+
+    from ..api import light
 
     rows, columns = np.mgrid[-1:1:64j, -1:1:64j]
     picture = np.zeros((64, 64, 4), np.uint8)
     picture[np.hypot(rows, columns) < 0.8] = (230, 120, 40, 255)
-    with tempfile.TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
-        lit = pipeline.render(take_apart(picture), default_scene(64, 64))
-    if not lit[..., :3].any():
+    if not light(picture)[..., :3].any():
         raise LampblackError("Cycles rendered black.", "Reinstall bpy.")
     return "renders"

@@ -1,125 +1,174 @@
-"""Options that several commands share, and how their text becomes values."""
+"""The options of render settings, written once for all commands, and checks of output files."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from enum import StrEnum
+import functools
+import inspect
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Concatenate, ParamSpec, get_args, get_type_hints
 
+import msgspec
 import typer
 
-from ..cache import ArrayCache, user_cache_folder
 from ..choices import LayerRole
 from ..errors import LampblackError
+from ..finals.settings import RenderSettings
 
-
-class QualityName(StrEnum):
-    """Presets of ``render/quality.py``."""
-
-    LOW = "low"
-    MEDIUM = "medium"
-    FINAL = "final"
-
-
-class FormatName(StrEnum):
-    """Kinds of finals."""
-
-    PNG = "png"
-    EXR = "exr"
-
-
-class Solver(StrEnum):
-    """The exact minimiser, or the paper's gradient descent."""
-
-    DIRECT = "direct"
-    ADAM = "adam"
-
-
-InputsArgument = Annotated[
-    list[str], typer.Argument(metavar="INPUT", help="PNG, folder, walk.%04d.png, a .pclx or .ora.")
-]
-SceneOption = Annotated[
-    Path | None,
-    typer.Option("--scene", help="Scene file. Default of walk.pclx: walk.pclx.lampblack.json."),
-]
-QualityOption = Annotated[
-    QualityName | None, typer.Option("--quality", help="Default: the scene's, or low.")
-]
-FramesOption = Annotated[
-    str | None, typer.Option("--frames", help="Frame numbers, such as 1-20x2,25.")
-]
-FormatOption = Annotated[
-    FormatName | None, typer.Option("--format", help="Default: the pattern's, or png.")
-]
-CharacterOption = Annotated[
-    list[str] | None,
-    typer.Option("--character", metavar="LAYER", help="Of a project: a layer to light."),
-]
-LineOption = Annotated[
-    list[str] | None,
-    typer.Option("--line", metavar="LAYER", help="Of a project: a layer of the characters' line."),
-]
-BackgroundOption = Annotated[
-    list[str] | None,
-    typer.Option("--background", metavar="LAYER", help="Of a project: a layer to leave unlit."),
-]
-CameraOption = Annotated[
-    str | None,
-    typer.Option("--camera", metavar="LAYER", help="Of a project; default: the first camera."),
-]
-MaskOption = Annotated[
-    Path | None, typer.Option("--mask", help="Picture whose white or opaque part is the figure.")
-]
-InkOption = Annotated[
-    Path | None, typer.Option("--ink", help="Picture whose dark or opaque part is the line.")
-]
-GridsOption = Annotated[
-    int,
-    typer.Option(
-        "--grids", min=0, max=64, help="0: the whole figure at once; else the paper's grids."
+OPTIONS: dict[str, Any] = {
+    "input": typer.Argument(metavar="INPUT", help="A PNG, folder, walk.%04d.png, .pclx or .ora."),
+    "inputs": typer.Argument(
+        metavar="INPUT", help="PNG, folder, walk.%04d.png, or one .pclx or .ora project."
     ),
-]
-SteadyOption = Annotated[
-    bool,
-    typer.Option(
-        "--steady/--no-steady", help="Lay the drawings beside each one onto it, against flicker."
+    "output": typer.Option(
+        "-o",
+        "--output",
+        metavar="DIR|PATTERN",
+        help="Folder for the lit frames, or pattern for their names: lit.%04d.exr.",
     ),
-]
-SolverOption = Annotated[Solver, typer.Option("--solver", help="How normals become a surface.")]
+    "frame": typer.Option(
+        "--frame", min=0, help="Number of the frame. Default: the first frame of the input."
+    ),
+    "frames": typer.Option(
+        "--frames", metavar="LIST", help="Frame numbers, such as 1-20x2,25. Default: all."
+    ),
+    "scene": typer.Option(
+        "--scene",
+        metavar="FILE",
+        help="Scene file. Default for walk.pclx: walk.pclx.lampblack.json; else one light.",
+    ),
+    "lights": typer.Option(
+        "--light",
+        metavar="X,Y,Z",
+        help="Place of a white light, in canvas pixels. Up to 4 replace the scene's lights.",
+    ),
+    "floor": typer.Option(
+        "--floor",
+        metavar="Y",
+        help="Canvas line of a floor that catches shadows. Replaces the scene's floor.",
+    ),
+    "quality": typer.Option(
+        "--quality", help="Quality preset of the light. Default: the scene's, or low."
+    ),
+    "format": typer.Option("--format", help="File format. Default: the pattern's, or png."),
+    "character": typer.Option(
+        "--character", metavar="LAYER", help="Project layer to light. May be repeated."
+    ),
+    "line": typer.Option(
+        "--line",
+        metavar="LAYER",
+        help="Project layer that holds only the characters' line. May be repeated.",
+    ),
+    "background": typer.Option(
+        "--background", metavar="LAYER", help="Project layer to leave unlit. May be repeated."
+    ),
+    "camera": typer.Option(
+        "--camera", metavar="LAYER", help="Camera layer of the project. Default: the first one."
+    ),
+    "steady": typer.Option(
+        "--steady/--no-steady", help="Smooth normals over neighbouring drawings, against flicker."
+    ),
+    "mask": typer.Option(
+        "--mask", metavar="FILE", help="Picture whose white or opaque part is the character mask."
+    ),
+    "ink": typer.Option(
+        "--ink", metavar="FILE", help="Picture whose dark or opaque part is the ink line."
+    ),
+    "grids": typer.Option(
+        "--grids",
+        min=0,
+        max=64,
+        help="Grids of tiles that normals are predicted from, as in the paper. "
+        "0 predicts the whole character at once.",
+    ),
+    "solver": typer.Option(
+        "--solver",
+        help="How normals become a surface: direct finds the exact minimum, adam is the paper's "
+        "gradient descent.",
+    ),
+    "again": typer.Option("--again", help="Render frames again whose files are up to date."),
+}
+"""In the order of ``--help``, by the field of ``RenderSettings``; ``input``, ``frame`` and the
+roles of layers stand for the fields that ``_settings`` makes from them."""
+
+_REQUIRED = "input", "inputs", "output"
+_DEFAULTS = {field.name: field.default for field in msgspec.structs.fields(RenderSettings)}
+_TYPES = (
+    get_type_hints(RenderSettings)
+    | {"input": str, "inputs": list[str], "lights": list[str] | None, "frame": int | None}
+    | dict.fromkeys(get_args(LayerRole), list[str] | None)
+)
+
+Own = ParamSpec("Own")
 
 
-def layer_roles(
-    character: list[str] | None, line: list[str] | None, background: list[str] | None
-) -> dict[str, LayerRole]:
-    """What the layers of a project are, by name.
+def with_settings(
+    *names: str,
+) -> Callable[[Callable[Concatenate[RenderSettings, Own], None]], Callable[..., None]]:
+    """Give a command the options ``names``, whose values are its first argument.
+
+    ``--help`` lists what is required first, and the command's other options last.
+    """
+
+    def decorate(command: Callable[Concatenate[RenderSettings, Own], None]) -> Callable[..., None]:
+        own = list(inspect.signature(command, eval_str=True).parameters.values())[1:]
+        shared = [_parameter(name) for name in OPTIONS if name in names]
+        parameters = [p.replace(kind=p.KEYWORD_ONLY) for p in (*shared, *own)]
+        parameters.sort(key=lambda p: (p.default is not p.empty, p.name not in names))
+
+        @functools.wraps(command)
+        def call(**given: Any) -> None:
+            settings = _settings({name: given.pop(name) for name in names})
+            command(settings, **given)  # type: ignore[call-arg]
+
+        call.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        call.__annotations__ = {p.name: p.annotation for p in parameters}
+        return call
+
+    return decorate
+
+
+def _parameter(name: str) -> inspect.Parameter:
+    default = inspect.Parameter.empty if name in _REQUIRED else _DEFAULTS.get(name)
+    return inspect.Parameter(
+        name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=None if default == () else default,
+        annotation=Annotated[_TYPES[name], OPTIONS[name]],
+    )
+
+
+def _settings(given: dict[str, Any]) -> RenderSettings:
+    """Settings from the values of options; None leaves a field at its default.
 
     Raises:
         LampblackError: a layer was named twice.
     """
-    named: list[tuple[str, LayerRole]] = [(name, "character") for name in character or []]
-    named += [(name, "line") for name in line or []]
-    named += [(name, "background") for name in background or []]
-    roles = dict(named)
-    if len(roles) < len(named):
-        raise LampblackError("A layer was named twice.", "A layer is one thing only.")
-    return roles
+    roles: dict[str, LayerRole] = {}
+    for role in get_args(LayerRole):
+        for layer in given.pop(role, None) or ():
+            if layer in roles:
+                raise LampblackError("A layer was named twice.", "Give each layer one role.")
+            roles[layer] = role
+    if "input" in given:
+        given["inputs"] = [given.pop("input")]
+    if (frame := given.pop("frame", None)) is not None:
+        given["frames"] = str(frame)
+    named = {name: value for name, value in given.items() if value is not None}
+    return msgspec.convert({"inputs": (), "output": "", "roles": roles} | named, RenderSettings)
 
 
-def open_cache() -> ArrayCache:
-    """The cache that every command of this user shares."""
-    return ArrayCache(user_cache_folder() / "surfaces")
-
-
-def keep_inputs(output: Path, inputs: Iterable[Path]) -> None:
+def keep_inputs(output: Path, inputs: Iterable[str | Path | None]) -> None:
     """Refuse an output that would replace one of the inputs."""
-    if output.exists() and any(path.exists() and path.samefile(output) for path in inputs):
+    given = [Path(path) for path in inputs if path is not None]
+    if output.exists() and any(path.exists() and path.samefile(output) for path in given):
         raise LampblackError(f"{output} is one of the inputs; it would be lost.", "Choose another.")
 
 
 def check_suffix(path: Path, *suffixes: str) -> None:
-    """Refuse an output whose kind is unknown, before any work is done."""
+    """Refuse an output whose file format is unknown, before any work is done."""
     if path.suffix.lower() not in suffixes:
         raise LampblackError(
-            f"{path} is of no kind that can be written here.", f"Known: {', '.join(suffixes)}."
+            f"{path} is not of a file format that can be written here.",
+            f"Known: {', '.join(suffixes)}.",
         )

@@ -11,13 +11,23 @@ import typer
 
 def serve(
     connection: Annotated[
-        Path, typer.Option("--connection", metavar="FILE", help="Written when ready; see SPEC.md.")
+        Path,
+        typer.Option(
+            "--connection",
+            metavar="FILE",
+            help="File to write the address and key to, once ready; see SPEC.md.",
+        ),
     ],
     parent_pid: Annotated[
-        int | None, typer.Option("--parent-pid", min=1, help="Leave when this process is gone.")
+        int | None,
+        typer.Option(
+            "--parent-pid", metavar="PID", min=1, help="Process to end with: the drawing program."
+        ),
     ] = None,
 ) -> None:
-    """Serve a drawing program: previews that follow the artist's hand, and render jobs.
+    """Serve a drawing program with previews and renders.
+
+    It shows a preview while a light is dragged, and renders frames into files.
 
     Example: lampblack serve --connection /run/user/1000/lampblack.json --parent-pid $$
     """

@@ -3,44 +3,38 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import msgspec
 import typer
-from rich.console import Console
-from rich.table import Table
 
-from ..atomic import atomic_file
-from ..drawing import take_apart
-from ..errors import DrawingError, LampblackWarning, NothingDrawnError
-from ..finals.resolve import ResolvedShot, resolve_shot
 from ..finals.settings import RenderSettings
-from ..scene import Canvas, Material, default_scene, encode_scene
-from ..shot import by_drawing
-from .console import progress_bar
-from .options import (
-    InkOption,
-    InputsArgument,
-    MaskOption,
-    check_suffix,
-)
+from .drawings import each_drawing
+from .options import check_suffix, with_settings
+
+if TYPE_CHECKING:
+    from ..finals.resolve import ResolvedShot
 
 
+@with_settings("inputs", "mask", "ink")
 def palette(
-    inputs: InputsArgument,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
-    mask: MaskOption = None,
-    ink: InkOption = None,
+    settings: RenderSettings,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False,
 ) -> None:
-    """List the flat colours of drawings, most used first.
+    """List the flat colours of drawings.
+
+    The colour with the most pixels comes first.
 
     Example: lampblack palette walk/
     """
-    counts = _count_colours(_open(inputs, mask, ink))
+    import msgspec
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..finals.resolve import resolve_shot
+
+    counts = _count_colours(resolve_shot(settings))
     if as_json:
         rows = [{"colour": colour, "pixels": pixels} for colour, pixels in counts]
         sys.stdout.write(msgspec.json.encode(rows).decode() + "\n")
@@ -51,18 +45,27 @@ def palette(
     Console().print(table)
 
 
+@with_settings("inputs", "mask", "ink")
 def scene(
-    inputs: InputsArgument,
-    output: Annotated[Path, typer.Option("-o", "--output", help="A .json file.")],
-    mask: MaskOption = None,
-    ink: InkOption = None,
+    settings: RenderSettings,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="JSON", help="Scene file to write.")
+    ],
 ) -> None:
-    """Write a scene to start from: one light, and a material for each flat colour.
+    """Write a scene file to start from.
+
+    It holds one light, and a material for each flat colour of the drawings.
 
     Example: lampblack scene walk/ -o walk.json
     """
+    from dataclasses import replace
+
+    from ..atomic import atomic_file
+    from ..finals.resolve import resolve_shot
+    from ..scene import Canvas, Material, default_scene, encode_scene
+
     check_suffix(output, ".json")
-    shot = _open(inputs, mask, ink)
+    shot = resolve_shot(settings)
     canvas = shot.shot.canvas
     if canvas is None:
         height, width = shot.shot.cel(shot.frames[0]).pixels.shape[:2]
@@ -73,29 +76,12 @@ def scene(
         file.write(encode_scene(replace(start, materials=materials)))
 
 
-def _open(inputs: list[str], mask: Path | None, ink: Path | None) -> ResolvedShot:
-    mask_path, ink_path = (None if path is None else str(path) for path in (mask, ink))
-    return resolve_shot(
-        RenderSettings(inputs=tuple(inputs), output="", mask=mask_path, ink=ink_path)
-    )
-
-
 def _count_colours(shot: ResolvedShot) -> list[tuple[str, int]]:
     """Flat colours and their pixels over all frames, most used first."""
+    from ..shot import by_drawing
+
     counts: Counter[str] = Counter()
-    with progress_bar() as bar:
-        for group in bar.track(by_drawing(shot.frames), description="Reading"):
-            name = group[0].name
-            try:
-                cel = shot.shot.cel(group[0])
-                drawing = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
-            except NothingDrawnError as error:
-                if shot.single:
-                    raise
-                warnings.warn(f"{name}: {error.what}", LampblackWarning, stacklevel=2)
-                continue
-            except DrawingError as error:
-                raise DrawingError(f"{name}: {error.what}", error.remedy, error.details) from error
-            for swatch in drawing.palette.swatches:
-                counts[swatch.colour] += swatch.pixels * len(group)
+    for frames, drawing in each_drawing(shot, by_drawing(shot.frames), "Reading"):
+        for swatch in drawing.palette.swatches:
+            counts[swatch.colour] += swatch.pixels * len(frames)
     return counts.most_common()

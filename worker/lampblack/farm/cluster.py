@@ -17,7 +17,7 @@ from urllib.parse import urlsplit
 
 import msgspec
 
-from ..cache import ArrayCache, user_cache_folder
+from ..cache import surface_cache
 from ..errors import LampblackError, OutputError
 from ..finals.light import Listener, Outcome, light_frames
 from ..finals.resolve import ResolvedJob, resolve_job
@@ -146,7 +146,7 @@ def _warm_pipeline(options: PipelineOptions) -> Pipeline:
     if _pipelines and _pipelines[0].options != options:
         _pipelines.pop().rest()
     if not _pipelines:
-        _pipelines.append(Pipeline(ArrayCache(user_cache_folder() / "surfaces"), options))
+        _pipelines.append(Pipeline(surface_cache(), options))
     return _pipelines[0]
 
 

@@ -61,9 +61,7 @@ def resolve_job(settings: RenderSettings) -> ResolvedJob:
     targets = Targets(settings.output, settings.format)
     resolved = resolve_shot(settings)
     targets.prepare(resolved.frames, resolved.sources)
-    options = PipelineOptions(solver=settings.solver)
-    if settings.grids is not None:
-        options = PipelineOptions(settings.grids, settings.solver)
+    options = PipelineOptions(settings.grids, settings.solver)
     return ResolvedJob(**vars(resolved), targets=targets, options=options, again=settings.again)
 
 

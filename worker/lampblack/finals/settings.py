@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from ..choices import FileFormat, LayerRole, QualityName, SolverName
+from ..choices import DEFAULT_GRIDS, FileFormat, LayerRole, QualityName, SolverName
 
 
 class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
@@ -22,7 +22,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         frames: a list such as ``1-20x2,25``; None is all.
         format: of the files; None goes by ``output``, else PNG.
         mask, ink: pictures; see ``take_apart``.
-        grids: see ``PipelineOptions``; None is its default.
+        grids: see ``PipelineOptions``.
         solver: how normals become a surface.
         roles: of a project's layers, by name; over those in the scene.
         camera: a project's layer; None is the first camera.
@@ -40,7 +40,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     format: FileFormat | None = None
     mask: str | None = None
     ink: str | None = None
-    grids: int | None = None
+    grids: int = DEFAULT_GRIDS
     solver: SolverName = "direct"
     roles: dict[str, LayerRole] = {}
     camera: str | None = None
@@ -58,17 +58,19 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
 
     def arguments(self) -> list[str]:
         """The same settings on the command line, after ``lampblack render``."""
-        options: dict[str, object] = {
-            "--scene": self.scene, "--light": self.lights, "--floor": self.floor,
-            "--quality": self.quality, "--frames": self.frames, "--format": self.format,
-            "--mask": self.mask, "--ink": self.ink, "--grids": self.grids,
-            "--solver": self.solver, "--camera": self.camera,
-        }  # fmt: skip
         words = [*self.inputs, "-o", self.output]
-        for option, value in options.items():
-            for one in value if isinstance(value, tuple) else (value,):
-                # One word, so that a value may begin with a dash.
-                words += [f"{option}={one}"] if one is not None else []
-        words += [f"--{role}={name}" for name, role in self.roles.items()]
-        words += [] if self.steady else ["--no-steady"]
-        return words + (["--again"] if self.again else [])
+        for name in self.__struct_fields__[2:]:
+            value = getattr(self, name)
+            option = {"lights": "--light"}.get(name, f"--{name}")
+            # One word each, so that a value may begin with a dash.
+            if isinstance(value, dict):
+                words += [f"--{role}={layer}" for layer, role in value.items()]
+            elif isinstance(value, tuple):
+                words += [f"{option}={one}" for one in value]
+            elif value is False and name == "steady":
+                words.append("--no-steady")
+            elif value is True and name == "again":
+                words.append("--again")
+            elif not isinstance(value, bool | None):
+                words.append(f"{option}={value}")
+        return words

@@ -12,14 +12,12 @@ from torch import nn
 
 from .. import __version__
 from ..cache import digest
+from ..choices import DEFAULT_GRIDS
 from .card import NetworkCard, load_network, shipped_weights
 from .figure import extend_outside, resize
 from .networks import FigureNet
 from .predict_figure import mean_vectors
 from .predict_tiles import MAX_GRIDS, tile_vectors
-
-DEFAULT_GRIDS = 0
-"""The whole figure at once."""
 
 _TILE_GRIDS = 5
 

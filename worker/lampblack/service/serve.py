@@ -9,7 +9,7 @@ from pathlib import Path
 
 import zmq
 
-from ..cache import ArrayCache, user_cache_folder
+from ..cache import surface_cache
 from ..errors import LampblackError
 from .endpoint import connection_file, private_endpoint
 from .noticed import listen
@@ -31,7 +31,7 @@ def serve_forever(connection: Path, parent: int | None = None) -> None:
         with private_endpoint() as endpoint:
             router = bind(context, endpoint)
             try:
-                server = Server(router, ArrayCache(user_cache_folder() / "surfaces"))
+                server = Server(router, surface_cache())
                 with connection_file(connection, endpoint):
                     server.run(lambda: watched is not None and _is_gone(watched), watched)
             finally:

@@ -9,7 +9,7 @@ import msgspec
 import typer
 
 from lampblack.atomic import atomic_file
-from lampblack.cli.console import console, progress_bar
+from lampblack.cli.console import progress_bar, say
 
 from ..dataset.build import DatasetOptions, build_dataset
 from ..dataset.card import dataset_card
@@ -64,4 +64,4 @@ def build(
         file.write(msgspec.json.format(msgspec.json.encode(card), indent=2) + b"\n")
     with atomic_file(output / "sheet.png") as file:
         dataset_sheet(output).save(file, "PNG")
-    console.print(f"{there} entries, card.json and sheet.png: {output}", markup=False)
+    say(f"{there} entries, card.json and sheet.png: {output}")

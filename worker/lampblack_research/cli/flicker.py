@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from dataclasses import asdict
-from itertools import islice
+from itertools import groupby, islice
 from pathlib import Path
 from typing import Annotated
 
@@ -15,11 +15,12 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from lampblack.cache import digest
+from lampblack.cache import surface_cache
 from lampblack.cli.console import progress_bar
-from lampblack.cli.options import open_cache
-from lampblack.drawing import find_frames, load_picture, take_apart
-from lampblack.errors import LampblackError, NothingDrawnError
+from lampblack.cli.drawings import each_drawing
+from lampblack.errors import LampblackError
+from lampblack.finals.resolve import resolve_shot
+from lampblack.finals.settings import RenderSettings
 from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.temporal.miniature import Miniature
 from lampblack.normals.temporal.steady import REACH, Around, Steadier
@@ -78,19 +79,11 @@ def _animation(inputs: list[str]) -> Rows:
 
 
 def _drawn(inputs: list[str]) -> Iterator[Miniature]:
-    """Each drawing where it begins to be shown; blank frames are passed over."""
-    last = ""
-    with Pipeline(open_cache()) as pipeline, progress_bar() as bar:
-        for frame in bar.track(find_frames(inputs), description="Predicting"):
-            picture = load_picture(frame.path)
-            name = digest(picture)
-            if name == last:
-                continue
-            last = name
-            try:
-                drawing = take_apart(picture)
-            except NothingDrawnError:
-                continue
+    """Each drawing where it begins to be shown."""
+    shot = resolve_shot(RenderSettings(inputs=tuple(inputs), output=""))
+    shown = [list(frames) for _, frames in groupby(shot.frames, lambda frame: frame.drawing)]
+    with Pipeline(surface_cache()) as pipeline:
+        for _, drawing in each_drawing(shot, shown, "Predicting"):
             yield pipeline.miniature(drawing)
 
 

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from lampblack.cli.console import console, progress_bar
+from lampblack.cli.console import progress_bar, say
 from lampblack.normals.card import NetworkCard
 
 from ..training.checkpoint import Progress
@@ -103,4 +103,4 @@ def train(
             bar.update(task, completed=round(progress.seconds), description=told)
 
         weights = run_training(data, output, CARDS[network], options, report, begin_with or ())
-    console.print(f"Weights and card: {weights}", markup=False)
+    say(f"Weights and card: {weights}")

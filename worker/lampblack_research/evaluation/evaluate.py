@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from lampblack.choices import DEFAULT_GRIDS
 from lampblack.errors import LampblackError
 from lampblack.normals.card import load_network
-from lampblack.normals.predict import DEFAULT_GRIDS, NormalPredictor
+from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 
 from ..dataset.models import find_models
