@@ -75,25 +75,3 @@ def test_the_number_of_a_pattern_may_stand_anywhere(
     out = tmp_path / "lit"
     assert run("render", tmp_path / "w_%d_final.png", "-o", out, "--frames", "10").code == 0
     assert files(out) == {"w_10_final.png"}
-
-
-def test_help_has_an_example_for_every_command(run: Run) -> None:
-    names = [
-        "render",
-        "job",
-        "serve",
-        "normals",
-        "mesh",
-        "export",
-        "palette",
-        "scene",
-        "train",
-        "evaluate",
-        "bench",
-        "doctor",
-    ]
-    for name in names:
-        shown = run(name, "--help")
-        assert shown.code == 0
-        assert f"Example: lampblack {name}" in shown.out
-    assert run("render").code == 2

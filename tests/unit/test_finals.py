@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from lampblack.colour import linear
 from lampblack.drawing import load_picture, save_picture, take_apart
 from lampblack.errors import LampblackError, RenderError
-from lampblack.finals.settings import RenderSettings
 from lampblack.finals.targets import Targets
 from lampblack.pipeline import Pipeline
 from lampblack.render import LightPasses, Passes, RenderChild
@@ -134,20 +133,6 @@ def test_patterns_do_not_overwrite_what_they_read(
     assert run("render", inputs, "-o", inputs).code == 1
     assert run("render", inputs, "-o", tmp_path / "lit.%04d.png").code == 0
     assert len(files(tmp_path)) == 4
-
-
-def test_settings_are_the_same_on_the_command_line(tmp_path: Path) -> None:
-    settings = RenderSettings(
-        inputs=("walk.pclx",), output="lit.%04d.exr", lights=("-1,2,3", "4,5,6"), floor=-3.5,
-        quality="final", frames="1-3", format="exr", grids=2, solver="adam",
-        roles={"-ball": "character", "sky": "background"}, camera="Crane", steady=False,
-        again=True,
-    )  # fmt: skip
-    assert settings.arguments() == [
-        "walk.pclx", "-o", "lit.%04d.exr", "--light=-1,2,3", "--light=4,5,6", "--floor=-3.5",
-        "--quality=final", "--frames=1-3", "--format=exr", "--grids=2", "--solver=adam",
-        "--camera=Crane", "--character=-ball", "--background=sky", "--no-steady", "--again",
-    ]  # fmt: skip
 
 
 def one_colour(strength: float, shape: tuple[int, int] = (64, 64)) -> LightPasses:

@@ -19,11 +19,11 @@ Benchmark = Literal["inflate", "normals", "final", "relight", "animation"]
 
 
 def bench(
-    what: Annotated[Benchmark, typer.Argument(help="The stage to measure.")],
+    what: Annotated[Benchmark, typer.Argument(metavar="STAGE", help="The stage to measure.")],
     drawing: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[DRAWING]",
+            metavar="DRAWING",
             help="A PNG; for animation a project or folder. Default: an example.",
         ),
     ] = None,

@@ -23,8 +23,8 @@ def export(
 ) -> None:
     """Write one frame as a 3D scene for other programs.
 
-    A .blend holds the relief, lights, floor and camera; a .glb holds the relief alone, in the
-    drawing's colours. --quality sets how fine the relief is.
+    A .glb holds the relief in the drawing's colours; a .blend also the lights, floor and camera.
+    --quality sets how fine the relief is.
 
     Example: lampblack export walk.pclx --frame 12 -o walk.0012.blend
     """

@@ -36,6 +36,7 @@ def job(
     frames_per_task: Annotated[
         int,
         typer.Option(
+            metavar="N",
             min=1,
             max=10_000,
             help="Fewest frames in a task; frames of one drawing stay in one task.",

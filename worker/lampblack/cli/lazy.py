@@ -37,7 +37,7 @@ class LazyCommand(TyperCommand):
         try:
             command = getattr(import_module(module), function)
         except ModuleNotFoundError as error:
-            if error.name != module.partition(".")[0]:
+            if (error.name or "").partition(".")[0] != module.partition(".")[0]:
                 raise
             raise LampblackError(
                 f"The command {self.name} is not part of this installation.",

@@ -27,7 +27,10 @@ OPTIONS: dict[str, Any] = {
         help="Folder for the lit frames, or pattern for their names: lit.%04d.exr.",
     ),
     "frame": typer.Option(
-        "--frame", min=0, help="Number of the frame. Default: the first frame of the input."
+        "--frame",
+        metavar="N",
+        min=0,
+        help="Number of the frame. Default: the first frame of the input.",
     ),
     "frames": typer.Option(
         "--frames", metavar="LIST", help="Frame numbers, such as 1-20x2,25. Default: all."
@@ -40,7 +43,7 @@ OPTIONS: dict[str, Any] = {
     "lights": typer.Option(
         "--light",
         metavar="X,Y,Z",
-        help="Place of a white light, in canvas pixels. Up to 4 replace the scene's lights.",
+        help="Position of a white light, in canvas pixels. Replaces the scene's lights; up to 4.",
     ),
     "floor": typer.Option(
         "--floor",
@@ -76,6 +79,7 @@ OPTIONS: dict[str, Any] = {
     ),
     "grids": typer.Option(
         "--grids",
+        metavar="N",
         min=0,
         max=64,
         help="Grids of tiles that normals are predicted from, as in the paper. "

@@ -74,10 +74,11 @@ def mesh(
         ),
     ],
     stride: Annotated[
-        int, typer.Option(min=1, max=64, help="Distance between vertices, in pixels.")
+        int, typer.Option(metavar="PIXELS", min=1, max=64, help="Distance between vertices.")
     ] = 1,
     relief_scale: Annotated[
-        float, typer.Option(min=0.01, max=10, help="Factor on the depth of the relief.")
+        float,
+        typer.Option(metavar="FACTOR", min=0.01, max=10, help="Factor on the depth of the relief."),
     ] = 1.0,
 ) -> None:
     """Inflate drawings into closed relief meshes.

@@ -23,11 +23,13 @@ def turntable(
         ),
     ],
     pictures: Annotated[
-        int, typer.Option(min=4, max=360, help="Number of pictures in the loop.")
+        int, typer.Option(metavar="N", min=4, max=360, help="Number of pictures in the loop.")
     ] = 32,
     size: Annotated[
         int,
-        typer.Option(min=64, max=1024, help="Longest side of each half of a picture, in pixels."),
+        typer.Option(
+            metavar="PIXELS", min=64, max=1024, help="Longest side of each half of a picture."
+        ),
     ] = 400,
 ) -> None:
     """Show a drawing's relief from the sides.

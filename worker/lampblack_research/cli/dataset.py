@@ -18,26 +18,37 @@ from ..dataset.viewpoints import PAPER_VIEWPOINTS
 
 
 def build(
-    models: Annotated[Path, typer.Option("--models", metavar="DIR", help="Folder of meshes.")],
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="The data set.")],
-    split: Annotated[str, typer.Option(help="Part of split.csv; 'all' for every mesh.")] = "all",
+    models: Annotated[
+        Path, typer.Option("--models", metavar="DIR", help="Folder of meshes to draw.")
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the data set.")
+    ],
+    split: Annotated[
+        str, typer.Option(help="Meshes to draw: a part of split.csv, or all for every mesh.")
+    ] = "all",
     views: Annotated[
-        int, typer.Option(min=1, max=1000, help="Sides of each model.")
+        int, typer.Option(min=1, max=1000, help="Viewpoints for each mesh.")
     ] = PAPER_VIEWPOINTS,
     resolution: Annotated[
-        int, typer.Option(min=64, max=2048, help="Side of the square a figure's box would fill.")
+        int, typer.Option(min=64, max=2048, help="Side, in pixels, of a square character.")
     ] = 512,
-    hands: Annotated[int, typer.Option(min=1, max=10, help="Drawings of each view.")] = 3,
+    hands: Annotated[int, typer.Option(min=1, max=10, help="Line styles for each view.")] = 3,
     freestyle: Annotated[
         float, typer.Option(min=0, max=1, help="Share of views with a Freestyle drawing.")
     ] = 0.2,
-    creatures: Annotated[int, typer.Option(min=0, max=100_000, help="Made-up figures to add.")] = 0,
-    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
-    seed: Annotated[int, typer.Option(min=0, help="Of viewpoints and hands.")] = 0,
+    creatures: Annotated[
+        int, typer.Option(min=0, max=100_000, help="Procedural creatures to add.")
+    ] = 0,
+    workers: Annotated[int, typer.Option(min=1, max=64, help="Number of worker processes.")] = 2,
+    seed: Annotated[
+        int, typer.Option(min=0, help="Random seed of viewpoints and line styles.")
+    ] = 0,
 ) -> None:
-    """Draw models from many sides, with exact normals, depth and occlusions.
+    """Draw models from many sides.
 
-    Interrupt it at will; run again, it goes on.
+    Each drawing comes with its exact normals, depth and occlusions. After an interruption, run
+    the same command to go on.
 
     Example: lampblack dataset build --models meshes/ -o dataset/ --split train
     """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -30,42 +29,45 @@ COLUMNS = (
 )
 
 
-class LinesOption(Enum):
-    """Who inks the test drawings."""
-
-    FREESTYLE = "freestyle"
-    GBUFFER = "gbuffer"
-
-
 def evaluate(
     models: Annotated[
-        Path, typer.Option("--models", metavar="DIR", help="Meshes; split.csv names train and val.")
+        Path, typer.Option("--models", metavar="DIR", help="Folder of meshes, with split.csv.")
     ],
-    split: Annotated[str, typer.Option(help="Part of split.csv; 'all' for every mesh.")] = "val",
+    split: Annotated[
+        str, typer.Option(help="Meshes to use: a part of split.csv, or all for every mesh.")
+    ] = "val",
     methods: Annotated[
         str,
         typer.Option(
             "--methods",
-            help="Of lampblack, paper, flat, laigter, laigter-tuned, inflate, "
-            "lumo, lumo-mixed; or NAME=FILE.safetensors for weights of your own, say "
-            "hudon2018=runs/first/network.safetensors. The others are compared with the first.",
+            metavar="LIST",
+            help="Methods to compare with the first: lampblack, paper, flat, laigter, "
+            "laigter-tuned, inflate, lumo, lumo-mixed, or NAME=FILE.safetensors for your own "
+            "weights, such as hudon2018=runs/first/network.safetensors.",
         ),
     ] = "lampblack,paper,flat,laigter,laigter-tuned,inflate,lumo,lumo-mixed",
-    views: Annotated[int, typer.Option(min=1, max=64, help="Sides of each model.")] = 8,
+    views: Annotated[int, typer.Option(min=1, max=64, help="Viewpoints for each mesh.")] = 8,
     resolution: Annotated[
-        int, typer.Option("--resolution", min=64, max=2048, help="Long side of the figure.")
+        int,
+        typer.Option(
+            "--resolution", min=64, max=2048, help="Longest side of the character, in pixels."
+        ),
     ] = 768,
     lines: Annotated[
-        LinesOption, typer.Option("--lines", help="Who inks the drawings.")
-    ] = LinesOption.FREESTYLE,
+        Literal["freestyle", "gbuffer"], typer.Option(help="Method that draws the ink lines.")
+    ] = "freestyle",
     as_json: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Write the figures as JSON.")
+        Path | None,
+        typer.Option("--json", metavar="FILE", help="File to write the figures to, as JSON."),
     ] = None,
     sheet: Annotated[
-        Path | None, typer.Option("--sheet", metavar="PNG", help="Write a contact sheet.")
+        Path | None,
+        typer.Option("--sheet", metavar="PNG", help="File to write a contact sheet to."),
     ] = None,
 ) -> None:
-    """Angle between predicted and true normals, for networks and their peers.
+    """Compare predicted normals with the truth.
+
+    The table lists the angle between them and other measures, for networks and other methods.
 
     Example: lampblack evaluate --models meshes/ --split val --json val.json
     """
@@ -75,7 +77,6 @@ def evaluate(
     def keep(drawing: TestDrawing, normals: dict[str, NDArray[np.float32]]) -> None:
         comparison.add(drawing, normals)
 
-    kind: Literal["freestyle", "gbuffer"] = lines.value
     with progress_bar() as bar:
         task = bar.add_task("Evaluating", total=100)
         table = measure(
@@ -84,7 +85,7 @@ def evaluate(
             chosen,
             views=views,
             figure_px=resolution,
-            lines=kind,
+            lines=lines,
             progress=lambda share: bar.update(task, completed=int(100 * share)),
             shown=keep if sheet else None,
         )

@@ -35,22 +35,34 @@ Rows = dict[str, dict[str, float]]
 
 def flicker(
     inputs: Annotated[
-        list[str] | None, typer.Argument(metavar="INPUT", help="PNG, folder, or walk.%04d.png.")
+        list[str] | None,
+        typer.Argument(
+            metavar="INPUT", help="PNG, folder, walk.%04d.png, or one .pclx or .ora project."
+        ),
     ] = None,
     models: Annotated[
         Path | None,
-        typer.Option("--models", metavar="DIR", help="Measure turntables of meshes instead."),
+        typer.Option(
+            "--models",
+            metavar="DIR",
+            help="Measure turntables of these meshes instead of drawings.",
+        ),
     ] = None,
-    split: Annotated[str, typer.Option(help="Part of split.csv; 'all' for every mesh.")] = "val",
-    count: Annotated[int, typer.Option(min=1, max=1000, help="Meshes, evenly chosen.")] = 3,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    split: Annotated[
+        str, typer.Option(help="Meshes to use: a part of split.csv, or all for every mesh.")
+    ] = "val",
+    count: Annotated[
+        int, typer.Option(min=1, max=1000, help="Number of meshes, evenly chosen.")
+    ] = 3,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the table as JSON.")] = False,
 ) -> None:
-    """How much normals change from drawing to drawing, as predicted and steadied; degrees.
+    """Measure how much normals change from drawing to drawing.
 
-    Of drawings: after the motion of the whole figure is removed (rigid; of that, what moving
-    parts make: motion), after the motion of each place (local), and as departure from the
-    drawings before and after (jitter). Of turntables: the error against the truth, change and
-    jitter along the points of the model, and rigid, which the truth has too.
+    The table gives degrees, for normals as predicted and as smoothed. For drawings: the change
+    after the motion of the whole character is removed (rigid) and the part of it that moving
+    parts make (motion); the change after the motion of each place is removed (local); the
+    departure from the drawings before and after (jitter). For turntables: the error against the
+    truth, change and jitter along the points of the mesh, and rigid, which the truth has too.
 
     Example: lampblack flicker walk/
     """

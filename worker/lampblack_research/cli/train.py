@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from enum import Enum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -16,40 +15,42 @@ from ..training.checkpoint import Progress
 from ..training.train import TrainingOptions
 from ..training.train import train as run_training
 
+Network = Literal["lampblack", "paper", "hudon2018"]
 
-class Network(Enum):
-    """The networks that can be trained."""
-
-    LAMPBLACK = "lampblack"
-    PAPER = "paper"
-    HUDON2018 = "hudon2018"
-
-
-CARDS = {
-    Network.LAMPBLACK: NetworkCard(),
-    Network.PAPER: NetworkCard("dilated-unet", (256, 768)),
-    Network.HUDON2018: NetworkCard("strided-unet", (256, 768)),
+CARDS: dict[Network, NetworkCard] = {
+    "lampblack": NetworkCard(),
+    "paper": NetworkCard("dilated-unet", (256, 768)),
+    "hudon2018": NetworkCard("strided-unet", (256, 768)),
 }
 
 
 def train(
     data: Annotated[
-        Path, typer.Argument(metavar="DATASET", help="What lampblack dataset build made.")
+        Path, typer.Argument(metavar="DATASET", help="Folder that lampblack dataset build made.")
     ],
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Run folder.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "-o", "--output", metavar="DIR", help="Folder for the weights and the log of the run."
+        ),
+    ],
     network: Annotated[
-        Network, typer.Option("--network", help="Ours, the paper's or its predecessor.")
-    ] = Network.LAMPBLACK,
+        Network,
+        typer.Option(
+            "--network", help="Network to train: ours, the paper's, or that of Hudon et al. 2018."
+        ),
+    ] = "lampblack",
     minutes: Annotated[
         float,
         typer.Option(
             min=0.01,
-            help="Budget over all runs: processor time of the trainer over its threads, so that "
-            "a busy or suspended machine does not shorten it.",
+            help="Training time over all runs: processor time of the trainer divided by its "
+            "threads, so that a busy machine does not shorten it.",
         ),
     ] = 60,
     threads: Annotated[
-        int, typer.Option(min=1, max=256, help="Of the trainer; one more process loads data.")
+        int,
+        typer.Option(min=1, max=256, help="Threads of the trainer; one more process loads data."),
     ] = 1,
     sides: Annotated[
         list[int] | None,
@@ -58,8 +59,8 @@ def train(
             min=64,
             max=1024,
             metavar="PIXELS",
-            help="Of the square whose area the canvas of a whole figure has; give it several "
-            "times, and figures are seen at all of these sizes.",
+            help="Size of a whole character's canvas: the side of a square of the same area. "
+            "May be repeated, to train on several sizes.",
         ),
     ] = None,
     first_side: Annotated[
@@ -68,8 +69,8 @@ def train(
             min=64,
             max=1024,
             metavar="PIXELS",
-            help="Of the canvases in the first two fifths of a run that begins from nothing: "
-            "small ones cost little.",
+            help="Size of the canvas in the first two fifths of a run that starts without weights; "
+            "a small one takes less time.",
         ),
     ] = TrainingOptions.first_side,
     begin_with: Annotated[
@@ -77,16 +78,19 @@ def train(
         typer.Option(
             "--from",
             metavar="SAFETENSORS",
-            help="Weights that a new run begins with; of several, their mean.",
+            help="Weights to start a new run from. May be repeated, to start from their mean.",
         ),
     ] = None,
-    batch: Annotated[int, typer.Option(min=1, max=256, help="Figures or tiles a step.")] = 12,
-    seed: Annotated[int, typer.Option(min=0, help="Of views and weights.")] = 0,
+    batch: Annotated[
+        int, typer.Option(min=1, max=256, help="Characters or tiles in a training step.")
+    ] = 12,
+    seed: Annotated[int, typer.Option(min=0, help="Random seed of views and weights.")] = 0,
 ) -> None:
-    """Train a normal network; run it again to go on after an interruption.
+    """Train a normal network.
 
-    In the run folder: network.safetensors, ready to use; curve.png; examples.png (drawing, truth,
-    prediction); log.jsonl.
+    After an interruption, run the same command to go on. The output folder holds
+    network.safetensors, ready to use; curve.png; examples.png (drawing, truth, prediction); and
+    log.jsonl.
 
     Example: lampblack train dataset/ -o runs/first --minutes 90
     """
