@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from lampblack.drawing import take_apart
+from lampblack.drawing import decompose_drawing
 from lampblack.pipeline import MAX_SURFACE_PX, Pipeline, surface_step
 from lampblack.scene import Ambient, AreaLight, Scene, default_scene
 from support.drawings import draw_ball
@@ -26,7 +26,7 @@ def brightness(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
 
 
 def test_the_side_towards_the_light_is_brighter(pipeline: Pipeline) -> None:
-    drawing = take_apart(draw_ball(160))
+    drawing = decompose_drawing(draw_ball(160))
     for x in (0, 160):
         lit = brightness(pipeline.render(drawing, lit_from(x, 80, 160)))
         left, right = lit[60:100, 40:60].mean(), lit[60:100, 100:120].mean()
@@ -39,7 +39,7 @@ def test_the_side_towards_the_light_is_brighter(pipeline: Pipeline) -> None:
 
 def test_alpha_and_line_are_the_artists_own(pipeline: Pipeline) -> None:
     picture = draw_ball(160)
-    lit = pipeline.render(take_apart(picture), lit_from(40, 40, 160))
+    lit = pipeline.render(decompose_drawing(picture), lit_from(40, 40, 160))
     assert np.array_equal(lit[..., 3], picture[..., 3])
     ink = (picture[..., 3] == 255) & (picture[..., :3] == [20, 16, 24]).all(axis=2)
     assert ink.sum() > 100
@@ -49,7 +49,7 @@ def test_alpha_and_line_are_the_artists_own(pipeline: Pipeline) -> None:
 def test_downscaled_final_and_converged_preview_agree(pipeline: Pipeline) -> None:
     """One pipeline, one composite: quality changes noise and detail, not the picture."""
     size = 320
-    drawing = take_apart(draw_ball(size))
+    drawing = decompose_drawing(draw_ball(size))
     scene = lit_from(60, 40, size)
     final = pipeline.render(drawing, replace(scene, quality="final"))
     preview = pipeline.render(drawing, replace(scene, quality="low"))
@@ -67,7 +67,7 @@ def test_downscaled_final_and_converged_preview_agree(pipeline: Pipeline) -> Non
 def test_large_pictures_are_solved_small_and_composited_whole(pipeline: Pipeline) -> None:
     size = MAX_SURFACE_PX + 400
     picture = draw_ball(300, canvas=size)
-    drawing = take_apart(picture)
+    drawing = decompose_drawing(picture)
     assert surface_step(drawing) == 2
     assert pipeline.height(drawing).shape == (size // 2, size // 2)
     vertices = pipeline.relief(drawing, stride=2).vertices

@@ -19,7 +19,7 @@ from PIL import Image
 
 from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard, load_network, save_network, shipped_weights
-from lampblack.normals.figure import LUMO
+from lampblack.normals.character import LUMO
 from lampblack.normals.networks import build_network
 from lampblack_research.dataset.build import DatasetOptions, build_dataset
 from lampblack_research.dataset.models import find_models, load_model

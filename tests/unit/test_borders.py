@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from lampblack.colour import linear, srgb
 from lampblack.composite import composite
-from lampblack.composite.borders import blends
+from lampblack.composite.borders import mixed_labels
 from lampblack.composite.light_sheet import Light, light_sheet
 from lampblack.composite.sheet import premultiplied, sheet_of
 from lampblack.drawing import Drawing, Palette
@@ -69,7 +69,7 @@ def test_blends_are_found_at_borders_alone() -> None:
     labels[4] = -1
     albedo = np.where(labels[..., None] == 0, np.float32(1), np.float32(0)) * np.ones(3, np.float32)
     albedo[:, 2] = 0.75
-    other, share = blends(labels, albedo, palette)
+    other, share = mixed_labels(labels, albedo, palette)
     assert (other[:4, 2] == 1).all()
     assert share[:4, 2] == pytest.approx(0.25)
     share[:4, 2] = 0
@@ -82,7 +82,7 @@ def test_blends_of_a_third_colour_are_none() -> None:
     labels[:, 2:] = 1
     albedo = np.where(labels[..., None] == 0, np.float32(1), np.float32(0)) * np.ones(3, np.float32)
     albedo[1, 1] = (0.8, 0.1, 0.1)
-    assert not blends(labels, albedo, palette)[1].any()
+    assert not mixed_labels(labels, albedo, palette)[1].any()
 
 
 def test_an_unlit_colour_leaves_its_share_of_the_pixel_dark() -> None:

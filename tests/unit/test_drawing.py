@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from lampblack.drawing import Drawing, figure_mask, take_apart
+from lampblack.drawing import Drawing, character_mask, decompose_drawing
 from lampblack.errors import DrawingError, LampblackWarning
 
 SIZE = 240
@@ -80,7 +80,7 @@ PAPERS = [None, (255, 255, 255), (190, 215, 240)]
 @pytest.mark.parametrize("paper", PAPERS)
 def test_layers_give_the_drawing_back(paper: tuple[int, int, int] | None) -> None:
     art = outlined()
-    drawing = take_apart(art if paper is None else on_paper(art, paper))
+    drawing = decompose_drawing(art if paper is None else on_paper(art, paper))
     paper = paper or (255, 255, 255)
     error = np.abs(recomposed(drawing, paper) - on_paper(art, paper)[..., :3]).max(axis=2)
     assert np.mean(error[drawing.mask] <= 2) > 0.999
@@ -94,7 +94,7 @@ def test_mask_ends_exactly_at_the_line(
 ) -> None:
     art = outlined(ink, width)
     truth = art[..., 3] >= 128
-    mask = figure_mask(art if paper is None else on_paper(art, paper))
+    mask = character_mask(art if paper is None else on_paper(art, paper))
     assert np.count_nonzero(mask != truth) <= 0.001 * np.count_nonzero(truth)
 
 
@@ -103,7 +103,7 @@ def test_ink_is_the_line_and_leaves_clean_fill_beneath(
     paper: tuple[int, int, int] | None,
 ) -> None:
     art = outlined()
-    drawing = take_apart(art if paper is None else on_paper(art, paper))
+    drawing = decompose_drawing(art if paper is None else on_paper(art, paper))
     line = paint((ring(120, 120, 80, 5) | ring(120, 120, 40, 5), (0, 0, 0)))[..., 3] / 255
     body = paint((disc(120, 120, 78), (0, 0, 0)))[..., 3] == 255
     # Where the two fills meet, a pixel is a blend of both with no ink in it.
@@ -118,7 +118,7 @@ def test_ink_is_the_line_and_leaves_clean_fill_beneath(
 
 
 def test_no_fringe_when_the_fill_is_lit_differently() -> None:
-    drawing = take_apart(outlined())
+    drawing = decompose_drawing(outlined())
     lit = np.array([1, 0, 1], np.float32)
     figure = drawing.ink[..., None] * drawing.ink_colour + (1 - drawing.ink[..., None]) * lit
     line = paint((ring(120, 120, 80, 5) | ring(120, 120, 40, 5), (0, 0, 0)))[..., 3] / 255
@@ -128,13 +128,13 @@ def test_no_fringe_when_the_fill_is_lit_differently() -> None:
 
 
 def test_whisker_outside_the_body_is_ink() -> None:
-    drawing = take_apart(outlined())
+    drawing = decompose_drawing(outlined())
     assert drawing.mask[59:61, 210:228].all()
     assert drawing.ink[59:61, 210:228].min() > 0.9
 
 
 def test_albedo_goes_on_past_the_mask() -> None:
-    drawing = take_apart(outlined())
+    drawing = decompose_drawing(outlined())
     rim = ndimage.binary_dilation(drawing.mask, iterations=4) & ~drawing.mask
     assert drawing.albedo[rim].max(axis=1).min() > 0.5
     assert drawing.lines[~drawing.mask].max() == 0
@@ -143,7 +143,7 @@ def test_albedo_goes_on_past_the_mask() -> None:
 
 
 def test_types_and_shapes_are_as_promised() -> None:
-    drawing = take_apart(outlined()[:, :200])
+    drawing = decompose_drawing(outlined()[:, :200])
     assert drawing.size == (200, SIZE)
     for name in ("coverage", "lines", "ink"):
         plane = getattr(drawing, name)
@@ -164,7 +164,7 @@ def test_filled_black_is_fill_and_its_border_line() -> None:
         (disc(120, 130, 30), (0, 0, 0)),
         (ring(120, 120, 90, 4), (0, 0, 0)),
     )
-    drawing = take_apart(art)
+    drawing = decompose_drawing(art)
     assert drawing.ink[110:150, 100:140].max() == 0
     assert {swatch.colour for swatch in drawing.palette.swatches} == {"#f0c8a0", "#000000"}
     assert drawing.lines[130, 120] == 0
@@ -175,7 +175,7 @@ def test_art_without_ink_has_borders_for_lines() -> None:
     across, _ = grid()
     body = disc(120, 120, 80)
     art = paint((body, (250, 150, 150)), (body & (across > 120.5), (200, 90, 110)))
-    drawing = take_apart(art)
+    drawing = decompose_drawing(art)
     assert drawing.ink.max() == 0
     middle = drawing.lines[120]
     assert middle[118:123].max() == 1
@@ -188,7 +188,7 @@ def test_art_without_ink_has_borders_for_lines() -> None:
 
 def test_hole_in_filled_art_stays_a_hole() -> None:
     art = paint((disc(120, 120, 90) & ~disc(150, 120, 20), (200, 120, 60)))
-    mask = figure_mask(art)
+    mask = character_mask(art)
     assert not mask[120, 150]
     assert mask[120, 100]
 
@@ -204,7 +204,7 @@ def line_art(gap: float = 0) -> NDArray[np.bool_]:
 @pytest.mark.parametrize("white", [False, True])
 def test_line_art_is_filled_through_small_gaps(gap: float, white: bool) -> None:
     art = paint((line_art(gap), (40, 40, 60)))
-    drawing = take_apart(on_paper(art) if white else art)
+    drawing = decompose_drawing(on_paper(art) if white else art)
     truth = paint((disc(120, 120, 82), (0, 0, 0)))[..., 3] >= 128
     away = np.ones_like(truth)
     away[110:130, 190:] = False
@@ -219,14 +219,14 @@ def test_line_art_is_filled_through_small_gaps(gap: float, white: bool) -> None:
 
 def test_line_art_cut_by_the_frame_is_closed_there() -> None:
     art = paint((line_art(), (0, 0, 0)))[:140]
-    mask = figure_mask(art)
+    mask = character_mask(art)
     assert mask[139, 120]
     assert not mask[139, 5]
 
 
 def test_line_art_may_touch_every_edge() -> None:
     art = paint((line_art(), (0, 0, 0)))[40:200, 40:200]
-    mask = figure_mask(art)
+    mask = character_mask(art)
     assert mask[80, 80]
     assert not any((mask[2, 2], mask[2, -3], mask[-3, 2], mask[-3, -3]))
 
@@ -234,13 +234,13 @@ def test_line_art_may_touch_every_edge() -> None:
 def test_outline_that_cannot_be_closed_warns() -> None:
     art = paint((ring(120, 120, 80, 4) & (grid()[0] > 120), (0, 0, 0)))
     with pytest.warns(LampblackWarning, match="not closed"):
-        drawing = take_apart(art)
+        drawing = decompose_drawing(art)
     assert drawing.mask.any()
 
 
 def test_enclosed_paper_belongs_to_the_figure() -> None:
     art = paint((disc(120, 120, 90), (200, 120, 60)), (disc(150, 100, 20), (255, 255, 255)))
-    assert figure_mask(on_paper(art))[100, 150]
+    assert character_mask(on_paper(art))[100, 150]
 
 
 def test_background_that_is_no_paper_warns() -> None:
@@ -249,7 +249,7 @@ def test_background_that_is_no_paper_warns() -> None:
     art[20:60, 20:200, :3] = 0
     art[::7, :, :3] //= 2
     with pytest.warns(LampblackWarning, match="not plain paper"):
-        take_apart(art)
+        decompose_drawing(art)
 
 
 def test_grainy_scan() -> None:
@@ -257,14 +257,14 @@ def test_grainy_scan() -> None:
     clean = on_paper(outlined(), (245, 243, 238)).astype(float)
     clean[..., :3] += rng.normal(0, 3, (SIZE, SIZE, 1))
     scan = np.rint(clean.clip(0, 255)).astype(np.uint8)
-    drawing = take_apart(scan)
+    drawing = decompose_drawing(scan)
     truth = outlined()[..., 3] >= 128
     assert np.mean(drawing.mask != truth) < 0.002
     assert len(drawing.palette.swatches) <= 4
 
 
 def test_palette_keys_are_the_exact_flat_colours() -> None:
-    drawing = take_apart(outlined())
+    drawing = decompose_drawing(outlined())
     counts = [swatch.pixels for swatch in drawing.palette.swatches]
     assert {swatch.colour for swatch in drawing.palette.swatches} == {"#e6b43c", "#3ca0dc"}
     assert counts == sorted(counts, reverse=True)
@@ -280,7 +280,7 @@ def test_painted_art_is_grouped_with_a_warning() -> None:
     waves = (waves - waves.min()) / (waves.max() - waves.min())
     art[..., :3] = np.rint(waves * 255)
     with pytest.warns(LampblackWarning, match="very many colours"):
-        drawing = take_apart(art)
+        drawing = decompose_drawing(art)
     assert 2 <= len(drawing.palette.swatches) <= 64
 
 
@@ -291,32 +291,32 @@ def test_overrides() -> None:
     mask[50:120, 50:190, :3] = 255
     ink = np.full_like(art, 255)
     ink[80:90, 60:180, :3] = 0
-    drawing = take_apart(art, mask=mask, ink=ink)
+    drawing = decompose_drawing(art, mask=mask, ink=ink)
     expected = np.zeros((SIZE, SIZE), bool)
     expected[50:120, 50:190] = True
     np.testing.assert_array_equal(drawing.mask, expected)
     assert (drawing.ink[80:90, 60:180] == 1).all()
     assert drawing.ink.sum() == pytest.approx(10 * 120)
     with pytest.raises(DrawingError, match="mask picture"):
-        take_apart(art, mask=mask[:100])
+        decompose_drawing(art, mask=mask[:100])
     with pytest.raises(DrawingError, match="nothing inside"):
-        take_apart(art, mask=np.dstack([np.zeros_like(art[..., :3]), mask[..., 3]]))
+        decompose_drawing(art, mask=np.dstack([np.zeros_like(art[..., :3]), mask[..., 3]]))
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 300), (300, 1), (64, 64)])
 @pytest.mark.parametrize("value", [(0, 0, 0, 0), (255, 255, 255, 255), (9, 9, 9, 255)])
 def test_nothing_drawn_is_an_error(shape: tuple[int, int], value: tuple[int, ...]) -> None:
     with pytest.raises(DrawingError):
-        take_apart(np.full((*shape, 4), value, np.uint8))
+        decompose_drawing(np.full((*shape, 4), value, np.uint8))
 
 
 def test_specks_are_an_error() -> None:
     art = np.zeros((50, 50, 4), np.uint8)
     art[20:23, 20:23] = 255
     with pytest.raises(DrawingError, match="9 pixels"):
-        take_apart(art)
+        decompose_drawing(art)
     with pytest.raises(DrawingError):
-        take_apart(np.zeros((0, 5, 4), np.uint8))
+        decompose_drawing(np.zeros((0, 5, 4), np.uint8))
 
 
 @pytest.mark.parametrize("shape", [(1, 40), (40, 1), (2, 30), (5, 5), (17, 4)])
@@ -327,7 +327,7 @@ def test_tiny_pictures_do_not_crash(shape: tuple[int, int]) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", LampblackWarning)
             try:
-                drawing = take_apart(art)
+                drawing = decompose_drawing(art)
             except DrawingError:
                 continue
         assert drawing.mask.shape == shape

@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from lampblack.colour import linear
-from lampblack.drawing import load_picture, save_picture, take_apart
+from lampblack.drawing import decompose_drawing, load_picture, save_picture
 from lampblack.errors import LampblackError, RenderError
 from lampblack.finals.targets import Targets
 from lampblack.pipeline import Pipeline
@@ -201,7 +201,7 @@ def test_layers_of_an_exr_add_up_to_the_picture(
     assert np.abs(beauty[..., 3] - picture[..., 3]).max() < 3e-3
     assert np.abs(beauty[..., :3] - linear(picture[..., :3]) * picture[..., 3:]).max() < 6e-3
     # Well inside the fill, where nothing is bent, the picture is its light.
-    drawn = take_apart(draw_ball(96))
+    drawn = decompose_drawing(draw_ball(96))
     plain = (drawn.ink == 0) & (drawn.coverage == 1) & (total.max(axis=2) < 0.8)
     assert plain.sum() > 500
     assert np.abs(beauty[..., :3] - total)[plain].max() < 4e-3

@@ -13,7 +13,7 @@ from lampblack.composite import composite
 from lampblack.composite.light_sheet import Light, add_up, light_sheet
 from lampblack.composite.shadow import FAINT
 from lampblack.composite.sheet import premultiplied, sheet_of
-from lampblack.drawing import take_apart
+from lampblack.drawing import decompose_drawing
 from lampblack.render import LightPasses, Passes
 from lampblack.scene import Floor, Material, Scene, default_scene
 from support.drawings import draw_ball
@@ -62,7 +62,7 @@ def test_agrees_with_the_composite(
         default_material=material,
         floor=Floor(80.0) if floor else None,
     )
-    drawing = take_apart(picture)
+    drawing = decompose_drawing(picture)
     given = passes(floor)
     dark = LightPasses(np.zeros((1, 1, 3), np.float32), np.zeros((1, 1, 3), np.float32))
     wanted = premultiplied(composite(drawing, Passes((given,), dark), scene))
@@ -77,7 +77,7 @@ def test_clear_line_art_agrees_too(floor: bool) -> None:
     rows, columns = np.mgrid[:SIZE, :SIZE] + 0.5 - SIZE / 2
     line = np.clip(1.4 - np.abs(np.hypot(rows, columns) - 36), 0, 1)
     picture = np.dstack([np.full((SIZE, SIZE, 3), 20), np.rint(255 * line)]).astype(np.uint8)
-    drawing, given = take_apart(picture), passes(floor)
+    drawing, given = decompose_drawing(picture), passes(floor)
     assert drawing.coverage[48, 48] == 1
     scene = default_scene(SIZE, SIZE)
     dim = replace(scene.lights[0], power=0.4)
@@ -91,7 +91,7 @@ def test_clear_line_art_agrees_too(floor: bool) -> None:
 
 
 def test_a_crop_is_that_part_of_the_whole() -> None:
-    drawing = take_apart(draw_ball(SIZE))
+    drawing = decompose_drawing(draw_ball(SIZE))
     scene = default_scene(SIZE, SIZE)
     light = all_together(scene, passes(False))
     sheet = sheet_of(drawing)
@@ -103,7 +103,7 @@ def test_a_crop_is_that_part_of_the_whole() -> None:
 
 
 def test_small_pictures_average_and_large_ones_stay_in_register() -> None:
-    sheet = sheet_of(take_apart(draw_ball(SIZE)))
+    sheet = sheet_of(decompose_drawing(draw_ball(SIZE)))
     half = sheet.cut(WHOLE, (48, 48))
     averaged = sheet.pixels.reshape(48, 2, 48, 2, 4).mean(axis=(1, 3))
     assert np.abs(half.pixels - averaged).max() <= 1

@@ -8,12 +8,12 @@ import torch
 from numpy.typing import NDArray
 
 from lampblack.normals.card import NetworkCard, load_network, shipped_weights
-from lampblack.normals.figure import MARGIN as CANVAS_MARGIN
-from lampblack.normals.figure import canvas_for, canvases, lay
-from lampblack.normals.networks import DilatedUNet, FigureNet, StridedUNet, build_network
+from lampblack.normals.character import MARGIN as CANVAS_MARGIN
+from lampblack.normals.character import canvas_for, canvases, lay
+from lampblack.normals.networks import CharacterNet, DilatedUNet, StridedUNet, build_network
 from lampblack.normals.networks.dilated_unet import DILATIONS
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.predict_figure import figure_vectors, mean_vectors
+from lampblack.normals.predict_character import character_vectors, mean_vectors
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
 
@@ -37,7 +37,7 @@ def quiet_network(architecture: str, px: tuple[int, int] | None = None) -> Norma
     """An untrained predictor: enough for all that does not depend on the weights."""
     torch.manual_seed(0)
     network = build_network(architecture)
-    if isinstance(network, FigureNet):  # it starts as Lumo, which would hide its faults
+    if isinstance(network, CharacterNet):  # it starts as Lumo, which would hide its faults
         torch.nn.init.normal_(network.normals.weight, std=0.02)
     px = px or ((96, 128) if architecture == "figure-net" else (256, 640))
     return NormalPredictor(network, NetworkCard(architecture, px))
@@ -134,7 +134,7 @@ def test_every_canvas_counts_the_same_and_quick_sees_the_smallest_alone() -> Non
     mask, _ = ball(300, 120.0)
     lines = np.random.default_rng(0).random(mask.shape).astype(np.float32) * mask
     network = quiet_network("figure-net")._network
-    large, _ = figure_vectors(network, 192, lines, mask)
+    large, _ = character_vectors(network, 192, lines, mask)
     once, _ = mean_vectors(network, (96, 192), lines, mask)
     twice, _ = mean_vectors(network, (96, 96, 192), lines, mask)
     assert np.allclose(3 * twice - 2 * once, 2 * once - large, atol=1e-5)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lampblack.bench.inflate import bench_inflate, synthetic_figure
+from lampblack.bench.inflate import bench_inflate, synthetic_character
 from lampblack.errors import LampblackWarning
 from lampblack.surface.adam import inflate_adam
 from lampblack.surface.direct import inflate_direct
@@ -135,7 +135,7 @@ def test_thin_and_nearly_cut_figures_converge() -> None:
 
 
 def test_least_energy_scales_with_one_over_gamma() -> None:
-    normals, mask = synthetic_figure(80)
+    normals, mask = synthetic_character(80)
     usable = usable_normals(normals, mask)
     height = inflate_direct(usable, mask)
     gamma = 2.5
@@ -161,7 +161,7 @@ def test_direct_is_no_worse_than_adam_in_both_discretisations() -> None:
 
 def test_noise_is_not_fitted() -> None:
     """Eq. 6 lets Adam fit noise with ripples; the compact stencil stays nearer the truth."""
-    normals, mask = synthetic_figure(160)
+    normals, mask = synthetic_character(160)
     truth = usable_normals(normals, mask)
     noise = np.random.default_rng(5).normal(scale=0.3, size=normals.shape)
     noisy = usable_normals(normals + noise, mask)
@@ -171,7 +171,7 @@ def test_noise_is_not_fitted() -> None:
 
 
 def test_adam_descends_on_the_energy_of_the_paper() -> None:
-    normals, mask = synthetic_figure(60)
+    normals, mask = synthetic_character(60)
     usable = usable_normals(normals, mask)
     flat = energy_paper(np.zeros(mask.shape, np.float32), usable, mask)
     few = energy_paper(inflate_adam(usable, mask, steps=20), usable, mask)

@@ -12,11 +12,11 @@ from scipy import ndimage
 
 from lampblack.drawing import save_picture
 from lampblack.normals.temporal.flow import dense_flow
-from lampblack.normals.temporal.miniature import Miniature, miniature
-from lampblack.normals.temporal.neighbours import neighbours
+from lampblack.normals.temporal.neighbours import neighbour_keys
 from lampblack.normals.temporal.registration import places_in, rigid_registration
 from lampblack.normals.temporal.rigid import Motion, rigid_motion
-from lampblack.normals.temporal.steady import ALONE, Around, Steadier
+from lampblack.normals.temporal.temporal_filter import NO_NEIGHBOURS, Neighbours, TemporalFilter
+from lampblack.normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from lampblack_research.evaluation.flicker import FlickerMeter
 from support.command_line import Run
 from support.drawings import draw_ball
@@ -49,8 +49,8 @@ def bowl(mask: Image, tilt: tuple[float, float] = (0.0, 0.0)) -> Image:
     return (normals * mask[..., None]).astype(np.float32)
 
 
-def small(name: str, lines: Image, mask: Image, normals: Image) -> Miniature:
-    return miniature(name, lines, mask > 0, np.ones((*mask.shape, 3), np.float32), normals)
+def small(name: str, lines: Image, mask: Image, normals: Image) -> RegistrationThumbnail:
+    return make_thumbnail(name, lines, mask > 0, np.ones((*mask.shape, 3), np.float32), normals)
 
 
 def angles(a: Image, b: Image) -> Image:
@@ -59,7 +59,7 @@ def angles(a: Image, b: Image) -> Image:
 
 def shot(
     noise: float, count: int = 7, step: tuple[float, float] = (0.0, 4.0)
-) -> list[tuple[Image, NDArray[np.bool_], Miniature]]:
+) -> list[tuple[Image, NDArray[np.bool_], RegistrationThumbnail]]:
     """A figure that moves by ``step`` a drawing, each with another smooth error of normals."""
     drawings = []
     for index in range(count):
@@ -70,8 +70,8 @@ def shot(
     return drawings
 
 
-def beside(shown: list[Miniature], index: int) -> Around:
-    return Around(tuple(shown[max(0, index - 2) : index][::-1]), tuple(shown[index + 1 :][:2]))
+def neighbours_of(shown: list[RegistrationThumbnail], index: int) -> Neighbours:
+    return Neighbours(tuple(shown[max(0, index - 2) : index][::-1]), tuple(shown[index + 1 :][:2]))
 
 
 def test_rigid_motion_is_found_to_a_tenth_of_a_cell() -> None:
@@ -110,11 +110,11 @@ def test_canvases_of_other_sizes_are_laid_over_each_other() -> None:
     )
     places = places_in(here, wide)
     assert np.abs(places - np.indices(places.shape[1:])).max() < 0.05
-    assert np.abs(Steadier().change(here, Around((wide,)))).max() < 0.01
+    assert np.abs(TemporalFilter().change(here, Neighbours((wide,)))).max() < 0.01
     speck = small(
         "c", lines[95:105, 95:105], np.ones((10, 10), np.float32), normals[95:105, 95:105]
     )
-    assert np.abs(Steadier().change(here, Around((speck,), (speck,)))).mean() < 0.05
+    assert np.abs(TemporalFilter().change(here, Neighbours((speck,), (speck,)))).mean() < 0.05
 
 
 def test_normals_turn_with_the_drawing() -> None:
@@ -128,36 +128,36 @@ def test_normals_turn_with_the_drawing() -> None:
     here = small("a", lines, mask, sideways)
     other = small("b", turned_lines, turned_mask, turned)
     inside = here.inside > 0.99
-    assert np.abs(Steadier().change(here, Around((other,))))[:, inside].mean() < 0.01
+    assert np.abs(TemporalFilter().change(here, Neighbours((other,))))[:, inside].mean() < 0.01
     assert np.degrees(rigid_registration(here, other).turn()).mean() == pytest.approx(30, abs=0.5)
 
 
 def test_the_same_drawing_is_left_as_it_is() -> None:
     normals, mask, here = shot(0.1)[3]
-    steadied = Steadier().steady(normals, mask, here, Around((here, here), (here,)))
-    assert angles(steadied, normals)[mask].max() < 0.2
+    smoothed = TemporalFilter().smooth(normals, mask, here, Neighbours((here, here), (here,)))
+    assert angles(smoothed, normals)[mask].max() < 0.2
 
 
 def test_alone_nothing_changes() -> None:
     normals, mask, here = shot(0.1)[3]
-    steadied = Steadier().steady(normals, mask, here, ALONE)
-    assert angles(steadied, normals)[mask].max() < 0.1
-    assert not steadied[~mask].any()
+    smoothed = TemporalFilter().smooth(normals, mask, here, NO_NEIGHBOURS)
+    assert angles(smoothed, normals)[mask].max() < 0.1
+    assert not smoothed[~mask].any()
 
 
 def test_flicker_falls_below_half_and_true_normals_are_kept() -> None:
     drawings = shot(0.08)
-    steadier, found = Steadier(), []
-    before, after = FlickerMeter(steadier), FlickerMeter(steadier)
+    temporal_filter, found = TemporalFilter(), []
+    before, after = FlickerMeter(temporal_filter), FlickerMeter(temporal_filter)
     minis = [mini for _, _, mini in drawings]
     for i, (normals, mask, here) in enumerate(drawings):
-        around = beside(minis, i)
-        steadied = steadier.steady(normals, mask, here, around)
-        assert np.linalg.norm(steadied[mask], axis=1) == pytest.approx(1, abs=1e-5)
-        assert not steadied[~mask].any()
-        found.append(angles(steadied, bowl(mask.astype(np.float32)))[mask].mean())
+        neighbours = neighbours_of(minis, i)
+        smoothed = temporal_filter.smooth(normals, mask, here, neighbours)
+        assert np.linalg.norm(smoothed[mask], axis=1) == pytest.approx(1, abs=1e-5)
+        assert not smoothed[~mask].any()
+        found.append(angles(smoothed, bowl(mask.astype(np.float32)))[mask].mean())
         before.add(here)
-        after.add(steadier.steadied(here, around))
+        after.add(temporal_filter.smoothed(here, neighbours))
     raw = [angles(n, bowl(mask.astype(np.float32)))[mask].mean() for n, mask, _ in drawings]
     assert np.mean(found) < 0.75 * np.mean(raw)
     assert before.flicker.motion < 0.6
@@ -174,8 +174,8 @@ def test_even_change_does_not_lag() -> None:
         drawings.append((normals, mask > 0, small(str(index), lines, mask, normals)))
     normals, mask, here = drawings[2]
     minis = [mini for _, _, mini in drawings]
-    steadied = Steadier().steady(normals, mask, here, beside(minis, 2))
-    assert angles(steadied, normals)[mask].mean() < 0.5
+    smoothed = TemporalFilter().smooth(normals, mask, here, neighbours_of(minis, 2))
+    assert angles(smoothed, normals)[mask].mean() < 0.5
 
 
 def test_a_cut_takes_nothing_over() -> None:
@@ -186,8 +186,8 @@ def test_a_cut_takes_nothing_over() -> None:
     elsewhere = np.zeros_like(normals)
     elsewhere[other_mask] = [0.8, 0, 0.6]
     other = small("cut", edges.astype(np.float32), other_mask.astype(np.float32), elsewhere)
-    steadied = Steadier().steady(normals, mask, here, Around((other,), (other,)))
-    assert angles(steadied, normals)[mask].mean() < 1.5
+    smoothed = TemporalFilter().smooth(normals, mask, here, Neighbours((other,), (other,)))
+    assert angles(smoothed, normals)[mask].mean() < 1.5
 
 
 def test_what_enters_disturbs_nothing_else() -> None:
@@ -201,9 +201,11 @@ def test_what_enters_disturbs_nothing_else() -> None:
     both_normals = normals.copy()
     both_normals[ball] = [-0.6, 0, 0.8]
     both = small("two", both_lines.astype(np.float32), both_mask, both_normals)
-    steadied = Steadier().steady(both_normals, both_mask > 0, both, Around((here,), (here,)))
-    assert angles(steadied, both_normals)[ball].mean() < 1
-    assert angles(steadied, both_normals)[mask > 0].mean() < 1
+    smoothed = TemporalFilter().smooth(
+        both_normals, both_mask > 0, both, Neighbours((here,), (here,))
+    )
+    assert angles(smoothed, both_normals)[ball].mean() < 1
+    assert angles(smoothed, both_normals)[mask > 0].mean() < 1
 
 
 def test_the_order_of_asking_changes_nothing() -> None:
@@ -211,8 +213,8 @@ def test_the_order_of_asking_changes_nothing() -> None:
     minis = [mini for _, _, mini in drawings]
 
     def all_of(order: list[int]) -> dict[int, Image]:
-        steadier = Steadier()
-        return {i: steadier.change(minis[i], beside(minis, i)) for i in order}
+        temporal_filter = TemporalFilter()
+        return {i: temporal_filter.change(minis[i], neighbours_of(minis, i)) for i in order}
 
     forwards, backwards = all_of([0, 1, 2, 3, 4]), all_of([4, 0, 3, 1, 2])
     for i, change in forwards.items():
@@ -220,20 +222,20 @@ def test_the_order_of_asking_changes_nothing() -> None:
 
 
 def test_neighbours_skip_holds_and_close_cycles() -> None:
-    assert neighbours(["a"], 2) == {"a": ((), ())}
-    assert neighbours(list("aabbbc"), 2) == {
+    assert neighbour_keys(["a"], 2) == {"a": ((), ())}
+    assert neighbour_keys(list("aabbbc"), 2) == {
         "a": ((), ("b", "c")),
         "b": (("a",), ("c",)),
         "c": (("b", "a"), ()),
     }
-    cycle = neighbours(list("abcdabcd"), 2)
+    cycle = neighbour_keys(list("abcdabcd"), 2)
     assert cycle["a"] == (("d", "c"), ("b", "c"))
     assert cycle["d"] == (("c", "b"), ("a", "b"))
-    assert neighbours([], 2) == {}
+    assert neighbour_keys([], 2) == {}
 
 
 def test_flicker_of_fewer_than_two_drawings_is_unknown() -> None:
-    meter = FlickerMeter(Steadier())
+    meter = FlickerMeter(TemporalFilter())
     meter.add(shot(0.0, 1)[0][2])
     assert np.isnan([meter.flicker.rigid, meter.flicker.local, meter.flicker.jitter]).all()
 

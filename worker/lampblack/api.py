@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cache import surface_cache
-from .drawing import load_picture, take_apart
+from .drawing import decompose_drawing, load_picture
 from .finals.scene_overrides import read_scene
 from .pipeline import Pipeline
 from .scene import Canvas, Scene, default_scene
@@ -50,7 +50,7 @@ def light(
         SceneError: the scene file cannot be read.
         RenderError: the renderer failed.
     """
-    drawing = take_apart(
+    drawing = decompose_drawing(
         _pixels(picture),
         mask=None if mask is None else _pixels(mask),
         ink=None if ink is None else _pixels(ink),

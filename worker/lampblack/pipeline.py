@@ -17,8 +17,8 @@ from .choices import DEFAULT_GRIDS, SolverName
 from .composite import composite
 from .drawing import Drawing
 from .normals.predict import NormalPredictor
-from .normals.temporal.miniature import Miniature, miniature
-from .normals.temporal.steady import Beside, Steadier
+from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter
+from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from .render import (
     QUALITIES,
     Passes,
@@ -61,7 +61,7 @@ class Pipeline:
         self._cache = cache
         self._niceness = niceness
         self._light_passes = LightPassCache()
-        self._steadier = Steadier()
+        self._temporal_filter = TemporalFilter()
         self.options = options or PipelineOptions()
 
     def __enter__(self) -> Self:
@@ -104,10 +104,10 @@ class Pipeline:
         self,
         drawing: Drawing,
         progress: Callable[[float], None] = lambda share: None,
-        beside: Beside | None = None,
+        neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
         """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask.
-        Steadied if there are drawings ``beside`` this one."""
+        Smoothed over time with the ``neighbours``."""
         key = digest(
             "normals", self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
         )
@@ -117,10 +117,10 @@ class Pipeline:
                 drawing.lines, drawing.mask, grids=self.options.grids, progress=progress
             ),
         )
-        if beside is None:
+        if neighbours is None:
             return predicted
-        here = self._miniature(drawing, predicted)
-        return self._steadier.steady(predicted, drawing.mask, here, beside.find())
+        here = self._thumbnail(drawing, predicted)
+        return self._temporal_filter.smooth(predicted, drawing.mask, here, neighbours.load())
 
     def quick_normals(
         self, lines: NDArray[np.float32], mask: NDArray[np.bool_]
@@ -128,31 +128,31 @@ class Pipeline:
         """Normals as above, cheaply, for somebody who waits: not kept, and never steadied."""
         return self._predictor.predict(lines, mask, quick=True)
 
-    def miniature(self, drawing: Drawing) -> Miniature:
+    def thumbnail(self, drawing: Drawing) -> RegistrationThumbnail:
         """What the drawings beside this one need of it; about 4 MB."""
-        return self._miniature(drawing, self.normals(drawing))
+        return self._thumbnail(drawing, self.normals(drawing))
 
-    def _miniature(self, drawing: Drawing, normals: NDArray[np.float32]) -> Miniature:
+    def _thumbnail(self, drawing: Drawing, normals: NDArray[np.float32]) -> RegistrationThumbnail:
         name = digest(drawing.lines, drawing.mask, drawing.albedo, normals)
-        return miniature(name, drawing.lines, drawing.mask, drawing.albedo, normals)
+        return make_thumbnail(name, drawing.lines, drawing.mask, drawing.albedo, normals)
 
     def height(
         self,
         drawing: Drawing,
         progress: Callable[[float], None] = lambda share: None,
-        beside: Beside | None = None,
+        neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
         """(h, w) float32 height in canvas pixels; the drawing's size, or capped below it."""
         made_from = [self._predictor.identity, self.options, drawing.lines, drawing.mask]
-        if beside is not None:
-            made_from += [drawing.albedo, beside.names]
+        if neighbours is not None:
+            made_from += [drawing.albedo, neighbours.keys]
         key = digest("height", *made_from)
-        return self._cache.get(key, lambda: self._inflate(drawing, progress, beside))
+        return self._cache.get(key, lambda: self._inflate(drawing, progress, neighbours))
 
     def _inflate(
-        self, drawing: Drawing, progress: Callable[[float], None], beside: Beside | None
+        self, drawing: Drawing, progress: Callable[[float], None], neighbours: LazyNeighbours | None
     ) -> NDArray[np.float32]:
-        normals, mask = self.normals(drawing, progress, beside), drawing.mask
+        normals, mask = self.normals(drawing, progress, neighbours), drawing.mask
         step = surface_step(drawing)
         if step > 1:
             normals, mask = _shrink_normals(normals, mask, step)
@@ -165,10 +165,10 @@ class Pipeline:
         *,
         relief_scale: float = 1.0,
         stride: int = 1,
-        beside: Beside | None = None,
+        neighbours: LazyNeighbours | None = None,
     ) -> Relief:
         """The figure's closed mesh in canvas pixels, one vertex every ``stride`` pixels."""
-        height, mask = self.height(drawing, beside=beside), drawing.mask
+        height, mask = self.height(drawing, neighbours=neighbours), drawing.mask
         step = surface_step(drawing)
         if step > 1:
             mask = mask[step // 2 :: step, step // 2 :: step][: height.shape[0], : height.shape[1]]
@@ -177,13 +177,15 @@ class Pipeline:
         )
         return replace(relief, vertices=relief.vertices * np.float32(step))
 
-    def surface(self, drawing: Drawing, scene: Scene, beside: Beside | None = None) -> Surface:
+    def surface(
+        self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
+    ) -> Surface:
         """What the lights of ``scene`` fall on: its relief, quality and materials count."""
         relief = self.relief(
             drawing,
             relief_scale=scene.relief_scale,
             stride=QUALITIES[scene.quality].mesh_stride,
-            beside=beside,
+            neighbours=neighbours,
         )
         return frame_surface(drawing, relief, scene)
 
@@ -191,7 +193,7 @@ class Pipeline:
         self,
         drawing: Drawing,
         scene: Scene,
-        beside: Beside | None = None,
+        neighbours: LazyNeighbours | None = None,
         surface: Surface | None = None,
     ) -> Passes:
         """Trace the lights of ``scene`` over the drawing's surface, but for those that the last
@@ -199,16 +201,16 @@ class Pipeline:
         with one, a thread of its own may trace while another makes the next."""
 
         def trace(asked: Scene, ambient: bool) -> Passes:
-            found = surface or self.surface(drawing, asked, beside)
+            found = surface or self.surface(drawing, asked, neighbours)
             return self.child.render(replace(frame_request(drawing, found, asked), ambient=ambient))
 
         return self._light_passes.complete(drawing, scene, trace)
 
     def render(
-        self, drawing: Drawing, scene: Scene, beside: Beside | None = None
+        self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
     ) -> NDArray[np.uint8]:
         """(H, W, 4) uint8, sRGB, straight alpha: the drawing, lit."""
-        return composite(drawing, self.light(drawing, scene, beside), scene)
+        return composite(drawing, self.light(drawing, scene, neighbours), scene)
 
 
 def surface_step(drawing: Drawing) -> int:

@@ -22,7 +22,7 @@ class Cel:
 
     Attributes:
         pixels: (H, W, 4) uint8 sRGB, straight alpha.
-        mask, ink: the artist's own, pictures of the same size, or None; see ``take_apart``.
+        mask, ink: the artist's own, pictures of the same size, or None; see ``decompose_drawing``.
     """
 
     pixels: Picture

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..cache import ArrayCache
 from ..composite import composite
-from ..drawing import take_apart
+from ..drawing import decompose_drawing
 from ..pipeline import Pipeline
 from ..render import frame_request
 from ..render.quality import REFERENCE
@@ -34,7 +34,7 @@ def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) ->
         with TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
             pipeline.warm_up()
             begin = time.perf_counter()
-            drawing = take_apart(picture)
+            drawing = decompose_drawing(picture)
             result = pipeline.render(drawing, staged)
             figures[f"seconds_final_{name}"] = round(time.perf_counter() - begin, 2)
             begin = time.perf_counter()

@@ -27,7 +27,7 @@ ELLIPSOIDS = (
 the canvas."""
 
 
-def synthetic_figure(size: int = 1000) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+def synthetic_character(size: int = 1000) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """Exact normals (size, size, 3) and mask of an upright figure made of ellipsoids.
 
     Its limbs overlap, so the normals have creases and rims inside the figure. At the default

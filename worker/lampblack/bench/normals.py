@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..choices import DEFAULT_GRIDS
-from ..drawing import take_apart
+from ..drawing import decompose_drawing
 from ..normals.predict import NormalPredictor
 from ..normals.predict_tiles import PAPER_GRIDS
 from ..surface import build_relief, guided_filter, solve
@@ -33,7 +33,7 @@ def bench_normals(picture: NDArray[np.uint8], runs: int = 5) -> dict[str, float]
         if run == 1:
             stages.clear()  # the first run warms up
         begin = moment = time.perf_counter()
-        drawing = take_apart(picture)
+        drawing = decompose_drawing(picture)
         moment = timed("take_apart", moment)
         normals = predictor.predict(drawing.lines, drawing.mask)
         moment = timed("normals", moment)

@@ -43,7 +43,7 @@ def bench(
 
     Example: lampblack bench inflate --json
     """
-    from ..drawing import load_picture, take_apart
+    from ..drawing import decompose_drawing, load_picture
 
     if what == "animation":
         from ..bench.animation import bench_animation
@@ -55,7 +55,7 @@ def bench(
         from ..bench.inflate import bench_inflate
         from ..normals.predict import NormalPredictor
 
-        taken = take_apart(picture)
+        taken = decompose_drawing(picture)
         figures = bench_inflate(NormalPredictor().predict(taken.lines, taken.mask), taken.mask)
     elif what == "normals":
         from ..bench.normals import bench_normals

@@ -31,11 +31,11 @@ def each_drawing(
     A blank drawing is passed over with a warning. One that cannot be read is reported and passed
     over; after the last, the command ends as failed. Both are errors if the shot is one drawing.
     """
-    from ..drawing import take_apart
+    from ..drawing import decompose_drawing
 
     def find(frame: ShotFrame) -> Drawing:
         cel = resolved.shot.cel(frame)
-        return take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
+        return decompose_drawing(cel.pixels, mask=cel.mask, ink=cel.ink)
 
     failed = False
     with progress_bar() as bar:

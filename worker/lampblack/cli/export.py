@@ -38,4 +38,4 @@ def export(
     keep_inputs(output, settings.inputs)
     with Pipeline(surface_cache()) as pipeline:
         staged = first_frame(resolve_shot(settings), pipeline)
-        save_scene(pipeline, staged.drawing, staged.scene, output, staged.beside)
+        save_scene(pipeline, staged.drawing, staged.scene, output, staged.neighbours)

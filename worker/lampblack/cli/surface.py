@@ -41,16 +41,16 @@ def normals(
     from ..atomic import atomic_file
     from ..cache import surface_cache
     from ..drawing import save_picture
-    from ..finals.surroundings import Surroundings
+    from ..finals.neighbours import NeighbourLoader
     from ..pipeline import Pipeline, PipelineOptions
     from ..shot import by_drawing
 
     shot, targets = _resolve(settings, output, "png", "npy")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids)) as pipeline:
-        around = Surroundings(shot.shot, pipeline, shot.reach)
+        around = NeighbourLoader(shot.shot, pipeline, shot.reach)
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Predicting", around.drawing):
-            found = pipeline.normals(drawing, beside=around.beside(frames[0]))
+            found = pipeline.normals(drawing, neighbours=around.neighbours(frames[0]))
             for frame in frames:
                 if targets.kind == "npy":
                     with atomic_file(targets.path(frame)) as file:
@@ -88,19 +88,19 @@ def mesh(
     Example: lampblack mesh hero.png -o hero.glb
     """
     from ..cache import surface_cache
-    from ..finals.surroundings import Surroundings
+    from ..finals.neighbours import NeighbourLoader
     from ..pipeline import Pipeline, PipelineOptions
     from ..shot import by_drawing
     from ..surface import save_mesh
 
     shot, targets = _resolve(settings, output, "glb", "obj", "ply")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids, settings.solver)) as pipeline:
-        around = Surroundings(shot.shot, pipeline, shot.reach)
+        around = NeighbourLoader(shot.shot, pipeline, shot.reach)
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
-            beside = around.beside(frames[0])
+            neighbours = around.neighbours(frames[0])
             relief = pipeline.relief(
-                drawing, relief_scale=relief_scale, stride=stride, beside=beside
+                drawing, relief_scale=relief_scale, stride=stride, neighbours=neighbours
             )
             for frame in frames:
                 save_mesh(relief, targets.path(frame))

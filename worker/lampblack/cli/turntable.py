@@ -56,7 +56,9 @@ def turntable(
     with Pipeline(surface_cache()) as pipeline, progress_bar() as bar:
         pipeline.child.start()
         staged = first_frame(shot, pipeline)
-        turned = turn_table(pipeline, staged.drawing, staged.scene, pictures, size, staged.beside)
+        turned = turn_table(
+            pipeline, staged.drawing, staged.scene, pictures, size, staged.neighbours
+        )
         loop = list(bar.track(turned, total=pictures, description="Turning"))
     if animated:
         save_gif(output, loop)

@@ -23,7 +23,7 @@ def swatch_albedos(palette: Palette) -> NDArray[np.float32]:
     return np.stack([*colours, np.zeros(3, np.float32)])
 
 
-def blends(
+def mixed_labels(
     labels: Labels, albedo: NDArray[np.float32], palette: Palette, reach: int = 1
 ) -> tuple[Labels, NDArray[np.float32]]:
     """Which second colour a pixel wears, and how much of the pixel it covers.

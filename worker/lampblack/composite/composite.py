@@ -14,7 +14,7 @@ from ..drawing.drawing import Drawing
 from ..materials import MaterialTable
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene
-from .borders import blends, swatch_albedos
+from .borders import mixed_labels, swatch_albedos
 from .resample import Band, enlarge
 from .shadow import shade_background
 
@@ -150,7 +150,7 @@ def figure_light(
     none = np.zeros_like(albedo)
     diffuse = _gather(sources, "diffuse", band) if materials.diffuse.any() else none
     glossy = _gather(sources, "glossy", band) if materials.glossy.any() else none
-    other, share = blends(drawing.labels, albedo, drawing.palette)
+    other, share = mixed_labels(drawing.labels, albedo, drawing.palette)
     blend = share > 0
     theirs = np.minimum(
         albedo[blend], share[blend, None] * swatch_albedos(drawing.palette)[other[blend]]

@@ -12,7 +12,7 @@ from PIL import Image
 from ..colour import linear
 from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
-from .borders import blends
+from .borders import mixed_labels
 
 Bytes = NDArray[np.uint8]
 Box = tuple[float, float, float, float]
@@ -33,7 +33,7 @@ class Sheet:
         coverage: (H, W) uint8.
         labels: (H, W) int16 index into ``palette.swatches``, -1 outside.
         others, shares: (H, W) int16 and uint8, a second colour and its part of the pixel, see
-            ``borders.blends``.
+            ``borders.mixed_labels``.
         palette: the flat colours.
     """
 
@@ -164,7 +164,7 @@ def _nearest(
 def _blends(
     labels: NDArray[np.int16], albedo: Bytes, palette: Palette, reach: int
 ) -> tuple[NDArray[np.int16], Bytes]:
-    others, shares = blends(labels, _LINEAR[albedo], palette, reach)
+    others, shares = mixed_labels(labels, _LINEAR[albedo], palette, reach)
     return others, _rounded(shares)
 
 

@@ -1,19 +1,20 @@
 """Drawings: read from disk, put in order, taken apart into figure, line and fill."""
 
-from .cutout import figure_mask
+from .cutout import character_mask
+from .decompose import decompose_drawing
 from .drawing import Drawing
 from .load import load_picture, read_picture, save_picture
 from .mask import ink_from_picture, mask_from_picture
 from .palette import Palette, Swatch
 from .sequence import Frame, find_frames, parse_frames, select_frames
-from .take_apart import take_apart
 
 __all__ = [
     "Drawing",
     "Frame",
     "Palette",
     "Swatch",
-    "figure_mask",
+    "character_mask",
+    "decompose_drawing",
     "find_frames",
     "ink_from_picture",
     "load_picture",
@@ -22,5 +23,4 @@ __all__ = [
     "read_picture",
     "save_picture",
     "select_frames",
-    "take_apart",
 ]

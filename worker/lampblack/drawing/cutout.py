@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
-from .mask import MIN_FIGURE, is_line_art, outside_of
+from .mask import MIN_CHARACTER, is_line_art, outside_of
 from .morphology import Mask, highest, lowest, without_specks
 
 Colours = NDArray[np.uint8]
@@ -61,7 +61,7 @@ def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None
     else:
         cutout = _from_paper(_over_white(pixels))
     count = np.count_nonzero(cutout.mask)
-    if count < MIN_FIGURE:
+    if count < MIN_CHARACTER:
         raise DrawingError(
             f"The figure is only {count} pixels large." if count else "Nothing is drawn here.",
             "Draw or export the figure larger.",
@@ -69,7 +69,7 @@ def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None
     return cutout
 
 
-def figure_mask(pixels: NDArray[np.uint8]) -> Mask:
+def character_mask(pixels: NDArray[np.uint8]) -> Mask:
     """The figure in ``pixels``, (H, W) bool; see ``cut_out``."""
     return cut_out(pixels).mask
 
@@ -89,7 +89,7 @@ def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
 def _enclosed(drawn: Mask) -> Mask:
     """The line and all it encloses."""
     mask = ~outside_of(drawn, line_art=True)
-    if MIN_FIGURE <= np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
+    if MIN_CHARACTER <= np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
         warnings.warn(
             "The outline is not closed, so there is nothing within the lines to light; "
             "close its gaps, or give a mask.",

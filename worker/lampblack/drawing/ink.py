@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cutout import Colours, Cutout
-from .mask import figure_span, is_line_art
+from .mask import character_span, is_line_art
 from .morphology import (
     Mask,
     depth_within,
@@ -43,7 +43,7 @@ def find_ink(figure: Cutout) -> Mask:
         of the way around it; the whole figure when it is bare line that encloses nothing.
     """
     colour, mask = figure.colour, figure.mask
-    span = figure_span(mask)
+    span = character_span(mask)
     light = luma(colour)
     hairline = max(2, round(_HAIRLINE * span))
     brush = max(4, round(_BRUSH * span))

@@ -9,7 +9,7 @@ from scipy import ndimage
 from ..errors import DrawingError
 from .morphology import Mask, depth_within, highest, near, regions_holding
 
-MIN_FIGURE = 16
+MIN_CHARACTER = 16
 """A figure of fewer pixels is dust, not a drawing."""
 
 _WIDEST_LINE = 0.018
@@ -31,7 +31,7 @@ def mask_from_picture(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDAr
         DrawingError: of another size than the drawing, or nothing inside.
     """
     inside = _painted(picture, size, "mask", white=True)
-    if np.count_nonzero(inside >= 0.5) < MIN_FIGURE:
+    if np.count_nonzero(inside >= 0.5) < MIN_CHARACTER:
         raise DrawingError(
             "The mask has nothing inside.", "Paint the figure white, or opaque on transparency."
         )
@@ -62,14 +62,14 @@ def _painted(
 
 def is_line_art(drawn: Mask) -> bool:
     """Whether nearly all that is drawn is as thin as a line, so that nothing is filled."""
-    span = figure_span(drawn)
+    span = character_span(drawn)
     stride = max(1, int(span // 500))
     depth = depth_within(np.pad(drawn[::stride, ::stride], 1)) * stride
     deep = np.count_nonzero(depth > max(2.0, _WIDEST_LINE * span))
     return bool(deep < 0.1 * np.count_nonzero(depth))
 
 
-def figure_span(drawn: Mask) -> float:
+def character_span(drawn: Mask) -> float:
     """Diagonal, in pixels, of the box around what is drawn: the measure of line widths."""
     rows = np.flatnonzero(drawn.any(axis=1))
     columns = np.flatnonzero(drawn.any(axis=0))
@@ -91,7 +91,7 @@ def outside_of(drawn: Mask, *, line_art: bool) -> Mask:
     """
     if not line_art:
         return _reached(np.pad(~drawn, 1, constant_values=True))[1:-1, 1:-1]
-    gaps = [max(1.0, share / 2 * figure_span(drawn)) for share in _GAPS]
+    gaps = [max(1.0, share / 2 * character_span(drawn)) for share in _GAPS]
     margin = int(gaps[-1]) + 2
     empty = np.pad(_closed_at_edges(~drawn), margin - 1, constant_values=True)
     depth = depth_within(empty)

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 from ..drawing import Drawing
 from ..errors import LampblackError
-from ..normals.temporal.steady import Beside
+from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
 from ..scene import Canvas, Scene
 from ..shot import ShotFrame
 from ..timeline import scene_at
+from .neighbours import NeighbourLoader
 from .resolve import ResolvedShot
-from .surroundings import Surroundings
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class OneFrame:
     frame: ShotFrame
     drawing: Drawing
     scene: Scene
-    beside: Beside | None
+    neighbours: LazyNeighbours | None
 
 
 def first_frame(opened: ResolvedShot, pipeline: Pipeline) -> OneFrame:
@@ -34,9 +34,9 @@ def first_frame(opened: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     if not opened.frames:
         raise LampblackError("There is no such frame.", "See which ones the input has.")
     frame = opened.frames[0]
-    surroundings = Surroundings(opened.shot, pipeline, opened.reach)
-    drawing = surroundings.drawing(frame)
+    neighbour_loader = NeighbourLoader(opened.shot, pipeline, opened.reach)
+    drawing = neighbour_loader.drawing(frame)
     canvas = opened.shot.canvas or Canvas(*drawing.size)
     scene = scene_at(opened.overrides.scene(canvas), frame.number or 1)
     placed = opened.shot.place(scene, drawing.size)
-    return OneFrame(frame, drawing, placed, surroundings.beside(frame))
+    return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..drawing import find_frames, load_picture, parse_frames, select_frames
 from ..errors import LampblackError
-from ..normals.temporal.steady import REACH
+from ..normals.temporal.temporal_filter import REACH
 from ..pipeline import PipelineOptions
 from ..project import is_project, read_project
 from ..project.shot import ProjectShot

@@ -14,9 +14,9 @@ from trimesh.visual.texture import TextureVisuals
 from ..atomic import atomic_file, atomic_path
 from ..drawing import Drawing
 from ..materials import MaterialTable
-from ..normals.temporal.steady import Beside
+from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
-from ..render import frame_request, standing_on
+from ..render import frame_request, vertex_pixels
 from ..scene import Scene
 from ..surface import Relief
 
@@ -25,7 +25,11 @@ GLOSSY, MATT = 0.5, 1.0
 
 
 def save_scene(
-    pipeline: Pipeline, drawing: Drawing, scene: Scene, path: Path, beside: Beside | None = None
+    pipeline: Pipeline,
+    drawing: Drawing,
+    scene: Scene,
+    path: Path,
+    neighbours: LazyNeighbours | None = None,
 ) -> None:
     """Write the relief in its drawing's colours; into a .blend also lights, floor and camera.
 
@@ -35,7 +39,7 @@ def save_scene(
     Raises:
         OutputError: it cannot be written. RenderError: Blender failed.
     """
-    surface = pipeline.surface(drawing, scene, beside)
+    surface = pipeline.surface(drawing, scene, neighbours)
     relief = surface.relief
     if path.suffix.lower() == ".glb":
         _save_glb(drawing, relief, scene, path)
@@ -43,7 +47,7 @@ def save_scene(
     request = frame_request(drawing, surface, scene)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
     materials = MaterialTable.of(scene, drawing.palette.colours)
-    worn = drawing.labels[standing_on(drawing.labels, relief.vertices)]
+    worn = drawing.labels[vertex_pixels(drawing.labels, relief.vertices)]
     diffuse = materials.diffuse[worn].astype(np.float32)
     unlit = (~(materials.diffuse | materials.glossy))[worn].astype(np.float32)
     with atomic_path(path) as temporary:

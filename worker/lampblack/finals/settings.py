@@ -21,7 +21,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         quality: a preset, instead of the scene's.
         frames: a list such as ``1-20x2,25``; None is all.
         format: of the files; None goes by ``output``, else PNG.
-        mask, ink: pictures; see ``take_apart``.
+        mask, ink: pictures; see ``decompose_drawing``.
         grids: see ``PipelineOptions``.
         solver: how normals become a surface.
         roles: of a project's layers, by name; over those in the scene.

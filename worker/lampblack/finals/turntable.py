@@ -14,7 +14,7 @@ from scipy import ndimage
 from ..camera import scene_in_view
 from ..composite import composite
 from ..drawing import Drawing
-from ..normals.temporal.steady import Beside
+from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
 from ..render import LightPasses, Passes, frame_request, frame_surface
 from ..scene import Material, Scene
@@ -46,7 +46,7 @@ def turn_table(
     scene: Scene,
     count: int,
     size: int,
-    beside: Beside | None = None,
+    neighbours: LazyNeighbours | None = None,
 ) -> Iterator[Picture]:
     """(h, w, 3) uint8 sRGB pictures of the relief, swinging: clay on the left, lit on the right.
 
@@ -60,7 +60,9 @@ def turn_table(
     scene = replace(scene, quality="medium", floor=None)
     long_side = max(int(np.ptp(np.flatnonzero(drawing.mask.any(axis=k)))) + 1 for k in (0, 1))
     stride = max(1, round(long_side / size))
-    relief = pipeline.relief(drawing, relief_scale=scene.relief_scale, stride=stride, beside=beside)
+    relief = pipeline.relief(
+        drawing, relief_scale=scene.relief_scale, stride=stride, neighbours=neighbours
+    )
     surface = frame_surface(drawing, relief, scene)
     middle = _middle(relief)
     turns = [_turned(relief.vertices, middle, angle) for angle in (-FARTHEST, 0, FARTHEST)]

@@ -20,8 +20,8 @@ from ..render import Passes, Surface
 from ..scene import Canvas, Scene, encode_scene
 from ..shot import Cel, Picture, ShotFrame, by_drawing
 from ..timeline import scene_at
+from .neighbours import NeighbourLoader
 from .resolve import ResolvedJob
-from .surroundings import Surroundings
 
 Floats = NDArray[np.float32]
 
@@ -75,7 +75,7 @@ class _Planner:
     def __init__(self, order: ResolvedJob, pipeline: Pipeline, check: Callable[[], None]) -> None:
         self._order = order
         self._pipeline = pipeline
-        self._surroundings = Surroundings(order.shot, pipeline, order.reach, check)
+        self._neighbour_loader = NeighbourLoader(order.shot, pipeline, order.reach, check)
         self._made_by = digest(__version__, order.options, _weights())
         self._canvas: Canvas | None = None
 
@@ -111,13 +111,13 @@ class _Planner:
         frame, _ = work.frames[0]
         assert work.scene is not None
         try:
-            drawing = self._surroundings.drawing(frame)
-            beside = self._surroundings.beside(frame)
-            surface = self._pipeline.surface(drawing, work.scene, beside)
+            drawing = self._neighbour_loader.drawing(frame)
+            neighbours = self._neighbour_loader.neighbours(frame)
+            surface = self._pipeline.surface(drawing, work.scene, neighbours)
             normals = height = None
             if self._order.targets.kind == "exr":
-                normals = self._pipeline.normals(drawing, beside=beside)
-                height = self._pipeline.height(drawing, beside=beside)
+                normals = self._pipeline.normals(drawing, neighbours=neighbours)
+                height = self._pipeline.height(drawing, neighbours=neighbours)
             work.model = Model(drawing, surface, normals, height)
         except NothingDrawnError as error:
             if self._order.single:
@@ -146,7 +146,7 @@ class _Planner:
         return scene_at(scene, self._order.frames.index(frame) + 1 if number is None else number)
 
     def _stamp(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> str:
-        names = frame.drawing, self._surroundings.names(frame), frame.setting
+        names = frame.drawing, self._neighbour_loader.names(frame), frame.setting
         made_from = (self._made_by, self._order.targets.kind, *names)
         return digest(*made_from, canvas, encode_scene(scene))
 

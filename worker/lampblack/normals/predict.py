@@ -14,9 +14,9 @@ from .. import __version__
 from ..cache import digest
 from ..choices import DEFAULT_GRIDS
 from .card import NetworkCard, load_network, shipped_weights
-from .figure import extend_outside, resize
-from .networks import FigureNet
-from .predict_figure import mean_vectors
+from .character import extend_outside, resize
+from .networks import CharacterNet
+from .predict_character import mean_vectors
 from .predict_tiles import MAX_GRIDS, tile_vectors
 
 _TILE_GRIDS = 5
@@ -72,7 +72,7 @@ class NormalPredictor:
             raise ValueError(f"lines {lines.shape} and mask {mask.shape} must be equal (H, W)")
         if not 0 <= grids <= MAX_GRIDS:
             raise ValueError(f"grids must be 0 to {MAX_GRIDS}, not {grids}")
-        whole = isinstance(self._network, FigureNet)
+        whole = isinstance(self._network, CharacterNet)
         if whole and grids:
             return self._paper.predict(lines, mask, grids=grids, progress=progress)
         normals = np.zeros((*mask.shape, 3), np.float32)
@@ -81,19 +81,21 @@ class NormalPredictor:
         # Everything is measured from the figure's own box, so that a figure that moves across
         # the canvas keeps its normals to the last bit.
         box = _bounding_box(mask)
-        figure_lines, figure_mask, inner = _past_the_canvas(lines[box], mask[box], box, mask.shape)
+        character_lines, character_mask, inner = _past_the_canvas(
+            lines[box], mask[box], box, mask.shape
+        )
         if whole:
             sides = self.card.figure_px[: 1 if quick else None]
-            vectors, seen = mean_vectors(self._network, sides, figure_lines, figure_mask)
+            vectors, seen = mean_vectors(self._network, sides, character_lines, character_mask)
         else:
-            scale = self._scale(max(figure_mask.shape))
-            small_lines, seen = _resize_figure(figure_lines, figure_mask, scale)
+            scale = self._scale(max(character_mask.shape))
+            small_lines, seen = _resize_drawing(character_lines, character_mask, scale)
             vectors = tile_vectors(self._network, small_lines, seen, grids or _TILE_GRIDS, progress)
-        vectors = extend_outside(_round_off(vectors, self.card.roundness), seen)
-        vectors = resize(vectors, figure_mask.shape)[inner]
+        vectors = extend_outside(_correct_slopes(vectors, self.card.roundness), seen)
+        vectors = resize(vectors, character_mask.shape)[inner]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
-        normals[box] = vectors * figure_mask[inner][..., None]
+        normals[box] = vectors * character_mask[inner][..., None]
         progress(1.0)
         return normals
 
@@ -106,7 +108,7 @@ class NormalPredictor:
         return min(max(long_side, smallest), largest) / long_side
 
 
-def _round_off(vectors: NDArray[np.float32], roundness: float) -> NDArray[np.float32]:
+def _correct_slopes(vectors: NDArray[np.float32], roundness: float) -> NDArray[np.float32]:
     """Unit normals from the network's means, (H, W, 3), without their flatness.
 
     A mean of the normals that a pixel might have leans to the viewer: what points sideways
@@ -149,7 +151,7 @@ def _past_the_canvas(
     return drawn.astype(np.float32), carried, place
 
 
-def _resize_figure(
+def _resize_drawing(
     lines: NDArray[np.float32], mask: NDArray[np.bool_], scale: float
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     if scale == 1:

@@ -3,7 +3,14 @@
 from .client import RenderChild
 from .passes import LightPasses, Passes
 from .quality import QUALITIES, Quality, Sampling
-from .request import RenderRequest, Surface, dress, frame_request, frame_surface, standing_on
+from .request import (
+    RenderRequest,
+    Surface,
+    assign_materials,
+    frame_request,
+    frame_surface,
+    vertex_pixels,
+)
 from .wire import Expose
 
 __all__ = [
@@ -16,8 +23,8 @@ __all__ = [
     "RenderRequest",
     "Sampling",
     "Surface",
-    "dress",
+    "assign_materials",
     "frame_request",
     "frame_surface",
-    "standing_on",
+    "vertex_pixels",
 ]

@@ -65,8 +65,10 @@ class RenderRequest:
 
 def frame_surface(drawing: Drawing, relief: Relief, scene: Scene) -> Surface:
     """The relief of a frame in the materials of ``scene``, whatever its lights."""
-    place = standing_on(drawing.labels, relief.vertices)
-    return dress(relief, drawing.albedo[place], drawing.labels[place], drawing.palette, scene)
+    place = vertex_pixels(drawing.labels, relief.vertices)
+    return assign_materials(
+        relief, drawing.albedo[place], drawing.labels[place], drawing.palette, scene
+    )
 
 
 def frame_request(drawing: Drawing, surface: Surface, scene: Scene) -> RenderRequest:
@@ -83,7 +85,7 @@ def frame_request(drawing: Drawing, surface: Surface, scene: Scene) -> RenderReq
     )
 
 
-def standing_on(
+def vertex_pixels(
     labels: NDArray[np.int16], vertices: NDArray[np.float32]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """(V,) rows and (V,) columns of the pixel of ``labels``, (H, W), that each vertex stands on;
@@ -98,7 +100,7 @@ def standing_on(
     return row, column
 
 
-def dress(
+def assign_materials(
     relief: Relief,
     albedo: NDArray[np.float32],
     labels: NDArray[np.int16],

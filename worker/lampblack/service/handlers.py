@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from .. import __version__
 from ..drawing import parse_frames
-from ..normals.temporal.neighbours import neighbours
-from ..normals.temporal.steady import REACH
+from ..normals.temporal.neighbours import neighbour_keys
+from ..normals.temporal.temporal_filter import REACH
 from ..protocol import (
     MINOR,
     Bye,
@@ -154,7 +154,7 @@ def _render(server: Server, session: Session, message: Render, planes: Planes) -
             job_scene(session.scene, message.quality),
             message.output,
             message.keep_finished,
-            neighbours([shown.digest for _, shown in sorted(session.frames.items())], REACH),
+            neighbour_keys([shown.digest for _, shown in sorted(session.frames.items())], REACH),
         )
         if not server.jobs.submit(job):
             server.send(session, error_message(ErrorCode.TOO_MANY_JOBS, request=message.request))

@@ -11,7 +11,7 @@ from pathlib import Path
 from ..camera import scene_in_view
 from ..drawing import load_picture, save_picture
 from ..errors import LampblackError, NothingDrawnError, OutputError, RenderError
-from ..normals.temporal.neighbours import Names
+from ..normals.temporal.neighbours import NeighbourKeys
 from ..pipeline import Pipeline
 from ..protocol import Done, ErrorCode, FrameDone, Progress, error_message
 from ..render import RenderChild
@@ -49,7 +49,7 @@ class Job:
     scene: Scene
     output: str
     keep_finished: bool
-    around: dict[str, Names] = field(default_factory=dict)
+    around: dict[str, NeighbourKeys] = field(default_factory=dict)
     cancelled: bool = False
     done: int = 0
     failed: int = 0
@@ -191,14 +191,16 @@ class Jobs:
     def _light(self, job: Job, frame: int, shown: Shown, planes: Planes, target: Path) -> None:
         drawing = take_planes_apart(planes)
         scene = scene_in_view(scene_at(job.scene, frame), shown.camera, drawing.size)
-        beside = self._surroundings.beside(
+        neighbours = self._surroundings.neighbours(
             job.around.get(shown.digest, ((), ())), lambda digest: self._planes(job, digest)
         )
-        self.pipeline.height(drawing, lambda share: self._progress(job, frame, 0.3 * share), beside)
+        self.pipeline.height(
+            drawing, lambda share: self._progress(job, frame, 0.3 * share), neighbours
+        )
         for attempt in range(ATTEMPTS):
             self._progress(job, frame, 0.3)
             try:
-                picture = self.pipeline.render(drawing, scene, beside)
+                picture = self.pipeline.render(drawing, scene, neighbours)
                 break
             except RenderError as error:
                 self._check(job)

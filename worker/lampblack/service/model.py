@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ..composite.sheet import Box, Sheet, sheet_of
-from ..drawing import Drawing, take_apart
+from ..drawing import Drawing, decompose_drawing
 from ..pipeline import Pipeline, surface_step
 from ..protocol import Pixels, Role
-from ..render import Surface, dress, standing_on
+from ..render import Surface, assign_materials, vertex_pixels
 from ..scene import Scene
 from ..surface import build_relief, solve
 
@@ -66,15 +66,17 @@ class Model:
             relief_scale=scene.relief_scale,
         )
         relief = replace(relief, vertices=relief.vertices * np.float32(scale))
-        row, column = standing_on(self.sheet.labels, relief.vertices / np.float32(self.step))
+        row, column = vertex_pixels(self.sheet.labels, relief.vertices / np.float32(self.step))
         albedo = self.sheet.albedo[row, column].astype(np.float32) / 255
-        return dress(relief, albedo, self.sheet.labels[row, column], self.sheet.palette, scene)
+        return assign_materials(
+            relief, albedo, self.sheet.labels[row, column], self.sheet.palette, scene
+        )
 
 
 def take_planes_apart(planes: Planes) -> Drawing:
-    """The drawing in the planes of a frame; see ``take_apart``."""
+    """The drawing in the planes of a frame; see ``decompose_drawing``."""
     mask, ink = planes.get("mask"), planes.get("ink")
-    return take_apart(
+    return decompose_drawing(
         planes["pixels"],
         mask=None if mask is None else _grey(mask),
         ink=None if ink is None else _grey(np.invert(ink)),

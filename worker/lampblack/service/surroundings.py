@@ -6,9 +6,9 @@ from collections import OrderedDict
 from collections.abc import Callable
 
 from ..errors import LampblackError
-from ..normals.temporal.miniature import Miniature
-from ..normals.temporal.neighbours import Names
-from ..normals.temporal.steady import REACH, Around, Beside
+from ..normals.temporal.neighbours import NeighbourKeys
+from ..normals.temporal.temporal_filter import REACH, LazyNeighbours, Neighbours
+from ..normals.temporal.thumbnail import RegistrationThumbnail
 from ..pipeline import Pipeline
 from .model import Planes, take_planes_apart
 
@@ -20,27 +20,33 @@ class Surroundings:
 
     def __init__(self, pipeline: Pipeline) -> None:
         self._pipeline = pipeline
-        self._small: OrderedDict[str, Miniature] = OrderedDict()
+        self._small: OrderedDict[str, RegistrationThumbnail] = OrderedDict()
 
-    def beside(self, names: Names, planes: Callable[[str], Planes]) -> Beside | None:
+    def neighbours(
+        self, names: NeighbourKeys, planes: Callable[[str], Planes]
+    ) -> LazyNeighbours | None:
         """The neighbours called ``names``, None if there are none; of those before and after,
         none beyond one that cannot be used. ``planes`` finds a drawing by its digest."""
         if not any(names):
             return None
-        return Beside(names, lambda: Around(*(tuple(self._usable(n, planes)) for n in names)))
+        return LazyNeighbours(
+            names, lambda: Neighbours(*(tuple(self._usable(n, planes)) for n in names))
+        )
 
-    def _usable(self, names: tuple[str, ...], planes: Callable[[str], Planes]) -> list[Miniature]:
-        found: list[Miniature] = []
+    def _usable(
+        self, names: tuple[str, ...], planes: Callable[[str], Planes]
+    ) -> list[RegistrationThumbnail]:
+        found: list[RegistrationThumbnail] = []
         for name in names:
             try:
-                found.append(self._miniature(name, planes))
+                found.append(self._thumbnail(name, planes))
             except LampblackError:
                 break
         return found
 
-    def _miniature(self, name: str, planes: Callable[[str], Planes]) -> Miniature:
+    def _thumbnail(self, name: str, planes: Callable[[str], Planes]) -> RegistrationThumbnail:
         if name not in self._small:
-            self._small[name] = self._pipeline.miniature(take_planes_apart(planes(name)))
+            self._small[name] = self._pipeline.thumbnail(take_planes_apart(planes(name)))
             if len(self._small) > _KEPT:
                 self._small.popitem(last=False)
         self._small.move_to_end(name)

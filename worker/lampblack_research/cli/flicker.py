@@ -22,8 +22,8 @@ from lampblack.errors import LampblackError
 from lampblack.finals.resolve import resolve_shot
 from lampblack.finals.settings import RenderSettings
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.temporal.miniature import Miniature
-from lampblack.normals.temporal.steady import REACH, Around, Steadier
+from lampblack.normals.temporal.temporal_filter import REACH, Neighbours, TemporalFilter
+from lampblack.normals.temporal.thumbnail import RegistrationThumbnail
 from lampblack.pipeline import Pipeline
 
 from ..dataset.models import find_models
@@ -82,30 +82,32 @@ def flicker(
 
 
 def _animation(inputs: list[str]) -> Rows:
-    steadier = Steadier()
-    meters = {"predicted": FlickerMeter(steadier), "steadied": FlickerMeter(steadier)}
+    temporal_filter = TemporalFilter()
+    meters = {"predicted": FlickerMeter(temporal_filter), "steadied": FlickerMeter(temporal_filter)}
     for here, around in _in_context(_drawn(inputs)):
         meters["predicted"].add(here)
-        meters["steadied"].add(steadier.steadied(here, around))
+        meters["steadied"].add(temporal_filter.smoothed(here, around))
     return {name: asdict(meter.flicker) for name, meter in meters.items()}
 
 
-def _drawn(inputs: list[str]) -> Iterator[Miniature]:
+def _drawn(inputs: list[str]) -> Iterator[RegistrationThumbnail]:
     """Each drawing where it begins to be shown."""
     shot = resolve_shot(RenderSettings(inputs=tuple(inputs), output=""))
     shown = [list(frames) for _, frames in groupby(shot.frames, lambda frame: frame.drawing)]
     with Pipeline(surface_cache()) as pipeline:
         for _, drawing in each_drawing(shot, shown, "Predicting"):
-            yield pipeline.miniature(drawing)
+            yield pipeline.thumbnail(drawing)
 
 
-def _in_context(drawn: Iterator[Miniature]) -> Iterator[tuple[Miniature, Around]]:
+def _in_context(
+    drawn: Iterator[RegistrationThumbnail],
+) -> Iterator[tuple[RegistrationThumbnail, Neighbours]]:
     """Each with what precedes and follows it."""
-    before: tuple[Miniature, ...] = ()
+    before: tuple[RegistrationThumbnail, ...] = ()
     ahead = list(islice(drawn, REACH + 1))
     while ahead:
         here, *after = ahead
-        yield here, Around(before, tuple(after))
+        yield here, Neighbours(before, tuple(after))
         before = (here, *before)[:REACH]
         ahead = [*after, *islice(drawn, 1)]
 

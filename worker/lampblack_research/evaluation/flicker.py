@@ -15,9 +15,9 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from lampblack.normals.temporal.miniature import Miniature
 from lampblack.normals.temporal.registration import Registration, rigid_registration
-from lampblack.normals.temporal.steady import Steadier, carried
+from lampblack.normals.temporal.temporal_filter import TemporalFilter, warped_normals
+from lampblack.normals.temporal.thumbnail import RegistrationThumbnail
 from lampblack.normals.temporal.window import Planes
 
 
@@ -43,31 +43,33 @@ class FlickerMeter:
     """Takes distinct drawings in order, and holds the last two.
 
     Args:
-        steadier: asked for registrations only; meters may share one.
+        temporal_filter: asked for registrations only; meters may share one.
     """
 
-    def __init__(self, steadier: Steadier) -> None:
-        self._steadier = steadier
-        self._last: deque[Miniature] = deque(maxlen=2)
+    def __init__(self, temporal_filter: TemporalFilter) -> None:
+        self._temporal_filter = temporal_filter
+        self._last: deque[RegistrationThumbnail] = deque(maxlen=2)
         self._rigid: list[float] = []
         self._motion: list[float] = []
         self._local: list[float] = []
         self._jitter: list[float] = []
 
-    def add(self, later: Miniature) -> None:
+    def add(self, later: RegistrationThumbnail) -> None:
         """The next drawing, with its normals."""
         if self._last:
             here = self._last[-1]
-            ahead = self._steadier.registration(here, later)
+            ahead = self._temporal_filter.registration(here, later)
             whole = rigid_registration(here, later)
             self._rigid.append(_change(here, later, whole))
-            kept, _ = carried(here, self._steadier.registration(later, here).fine())
+            kept, _ = warped_normals(here, self._temporal_filter.registration(later, here).fine())
             self._motion.append(_change(here, replace(later, vectors=kept), whole))
             self._local.append(_change(here, later, ahead))
             if len(self._last) == 2:
                 earlier = self._last[0]
-                past, faith = carried(earlier, self._steadier.registration(here, earlier).fine())
-                future, trust = carried(later, ahead.fine())
+                past, faith = warped_normals(
+                    earlier, self._temporal_filter.registration(here, earlier).fine()
+                )
+                future, trust = warped_normals(later, ahead.fine())
                 self._jitter.append(_mean_angle(here, past + future, faith * trust))
         self._last.append(later)
 
@@ -78,16 +80,16 @@ class FlickerMeter:
         return Flicker(*(float(np.mean(values)) if values else nan for values in found))
 
 
-def rigid_change(here: Miniature, later: Miniature) -> float:
+def rigid_change(here: RegistrationThumbnail, later: RegistrationThumbnail) -> float:
     """Degrees of change that are left after the motion of the whole figure."""
     return _change(here, later, rigid_registration(here, later))
 
 
-def _change(here: Miniature, other: Miniature, seen: Registration) -> float:
-    return _mean_angle(here, *carried(other, seen.fine()))
+def _change(here: RegistrationThumbnail, other: RegistrationThumbnail, seen: Registration) -> float:
+    return _mean_angle(here, *warped_normals(other, seen.fine()))
 
 
-def _mean_angle(here: Miniature, vectors: Planes, weight: NDArray[np.float32]) -> float:
+def _mean_angle(here: RegistrationThumbnail, vectors: Planes, weight: NDArray[np.float32]) -> float:
     """Degrees between the drawing's normals and ``vectors``, over the figure."""
     length = np.linalg.norm(here.vectors, axis=0) * np.linalg.norm(vectors, axis=0)
     cosine = (here.vectors * vectors).sum(axis=0) / np.maximum(length, 1e-6)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.temporal.miniature import Miniature, miniature
-from lampblack.normals.temporal.steady import REACH, Around, Steadier
+from lampblack.normals.temporal.temporal_filter import REACH, Neighbours, TemporalFilter
+from lampblack.normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 
 from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation
 from ..dataset.linework import Hand, draw_lines
@@ -99,22 +99,22 @@ def _views(model: Model, count: int, figure_px: int, seed: int) -> list[View]:
 
 
 def _steadied(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
-    steadier = Steadier()
+    temporal_filter = TemporalFilter()
     small = _small(views, predicted)
     return [
-        steadier.steady(
+        temporal_filter.smooth(
             normals,
             views[i].seen.mask,
             small[i],
-            Around(tuple(small[max(0, i - REACH) : i][::-1]), tuple(small[i + 1 :][:REACH])),
+            Neighbours(tuple(small[max(0, i - REACH) : i][::-1]), tuple(small[i + 1 :][:REACH])),
         )
         for i, normals in enumerate(predicted)
     ]
 
 
-def _small(views: Sequence[View], normals: Sequence[Normals]) -> list[Miniature]:
+def _small(views: Sequence[View], normals: Sequence[Normals]) -> list[RegistrationThumbnail]:
     return [
-        miniature(str(index), view.lines, view.seen.mask, np.ones_like(shown), shown)
+        make_thumbnail(str(index), view.lines, view.seen.mask, np.ones_like(shown), shown)
         for index, (view, shown) in enumerate(zip(views, normals, strict=True))
     ]
 

@@ -13,7 +13,7 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
-from lampblack.normals.figure import (
+from lampblack.normals.character import (
     COARSE,
     SIDEWAYS,
     canvas_for,

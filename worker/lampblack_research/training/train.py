@@ -17,7 +17,7 @@ from torch import nn
 
 from lampblack.errors import LampblackError, OutputError
 from lampblack.normals.card import NetworkCard, load_network
-from lampblack.normals.networks import FigureNet, build_network
+from lampblack.normals.networks import CharacterNet, build_network
 
 from .checkpoint import Checkpoint, Progress
 from .example import save_examples
@@ -87,7 +87,7 @@ def train(
     network = _first_weights(card, begin_with).train()
     average = build_network(card.architecture)
     average.load_state_dict(network.state_dict())
-    whole = isinstance(network, FigureNet)
+    whole = isinstance(network, CharacterNet)
     steppers = optimisers(cast(Network, network))
     told: dict[str, object] = {
         "batch": options.batch,

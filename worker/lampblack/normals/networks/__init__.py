@@ -7,14 +7,14 @@ from collections.abc import Callable
 import torch
 from torch import nn
 
+from .character_net import CharacterNet
 from .dilated_unet import DilatedUNet
-from .figure_net import FigureNet
 from .strided_unet import StridedUNet
 
-__all__ = ["ARCHITECTURES", "DilatedUNet", "FigureNet", "StridedUNet", "build_network"]
+__all__ = ["ARCHITECTURES", "CharacterNet", "DilatedUNet", "StridedUNet", "build_network"]
 
 ARCHITECTURES: dict[str, Callable[[], nn.Module]] = {
-    "figure-net": FigureNet,
+    "figure-net": CharacterNet,  # as the cards of version 0.1 name it
     "dilated-unet": DilatedUNet,
     "strided-unet": StridedUNet,
 }

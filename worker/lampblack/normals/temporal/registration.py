@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from .flow import dense_flow
-from .miniature import Miniature
 from .rigid import Motion, rigid_motion
 from .sample import sampled
+from .thumbnail import RegistrationThumbnail
 from .window import Planes
 
 _MISMATCH = 0.18
@@ -58,7 +58,9 @@ class Registration:
         return angle
 
 
-def registration(here: Miniature, other: Miniature, there: Planes, back: Planes) -> Registration:
+def registration(
+    here: RegistrationThumbnail, other: RegistrationThumbnail, there: Planes, back: Planes
+) -> Registration:
     """``other`` seen from ``here``, from ``there = places_in(here, other)`` and
     ``back = places_in(other, here)``."""
     at = np.indices(here.window.coarse, np.float32)
@@ -72,7 +74,7 @@ def registration(here: Miniature, other: Miniature, there: Planes, back: Planes)
     return Registration(there, trust.astype(np.float32))
 
 
-def places_in(here: Miniature, other: Miniature) -> Planes:
+def places_in(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Planes:
     """(2, h, w): where each coarse cell of ``here`` lies on the coarse grid of ``other``: the
     rigid motion of the whole first, then each place's own."""
     motion = rigid_motion(here.features, other.features, _standing(here, other))
@@ -81,14 +83,14 @@ def places_in(here: Miniature, other: Miniature) -> Planes:
     return motion(at + flow)
 
 
-def rigid_registration(here: Miniature, other: Miniature) -> Registration:
+def rigid_registration(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Registration:
     """``other`` where the motion of the whole figure alone would place it, fully trusted."""
     motion = rigid_motion(here.features, other.features, _standing(here, other), finest=0)
     places = motion(np.indices(here.window.coarse, np.float32))
     return Registration(places, np.ones(here.window.coarse, np.float32))
 
 
-def _standing(here: Miniature, other: Miniature) -> Motion:
+def _standing(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Motion:
     """The figures laid over each other by their centroids, in equal size on the canvas."""
     scale = (other.window.coarse[0] / other.window.size[0]) / (
         here.window.coarse[0] / here.window.size[0]

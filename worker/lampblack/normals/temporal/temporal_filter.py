@@ -16,10 +16,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from .miniature import Miniature
-from .neighbours import Names
+from .neighbours import NeighbourKeys
 from .registration import Registration, places_in, registration
 from .sample import sampled
+from .thumbnail import RegistrationThumbnail
 from .window import Planes
 
 REACH = 2
@@ -28,26 +28,25 @@ _KEPT = 16
 
 
 @dataclass(frozen=True)
-class Around:
+class Neighbours:
     """What precedes and follows a drawing, nearest first; ``REACH`` of each are looked at."""
 
-    before: tuple[Miniature, ...] = ()
-    after: tuple[Miniature, ...] = ()
+    before: tuple[RegistrationThumbnail, ...] = ()
+    after: tuple[RegistrationThumbnail, ...] = ()
 
 
 @dataclass(frozen=True)
-class Beside:
-    """What is around a drawing by the ``names`` of its contents, and how to ``find`` it once it
-    is needed."""
+class LazyNeighbours:
+    """Neighbours that are loaded only when they are needed. ``keys`` name their contents."""
 
-    names: Names
-    find: Callable[[], Around]
-
-
-ALONE = Around()
+    keys: NeighbourKeys
+    load: Callable[[], Neighbours]
 
 
-class Steadier:
+NO_NEIGHBOURS = Neighbours()
+
+
+class TemporalFilter:
     """Steadies normals, drawing by drawing.
 
     Keeps the last few registrations, since each serves several drawings. What it returns does
@@ -57,24 +56,24 @@ class Steadier:
     def __init__(self) -> None:
         self._places: OrderedDict[tuple[str, str], Planes] = OrderedDict()
 
-    def steady(
+    def smooth(
         self,
         normals: NDArray[np.float32],
         mask: NDArray[np.bool_],
-        here: Miniature,
-        around: Around,
+        here: RegistrationThumbnail,
+        neighbours: Neighbours,
     ) -> NDArray[np.float32]:
         """Average one drawing's normals with its neighbours'.
 
         Args:
             normals: (H, W, 3) float32, as predicted. mask: (H, W) bool.
-            here: of this drawing. around: of its neighbours, which may be of other sizes.
+            here: of this drawing. neighbours: of its neighbours, which may be of other sizes.
 
         Returns:
             (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
             Detail finer than the fine grid is the drawing's own.
         """
-        laid, place = here.window.lay(self.change(here, around), mask.shape)
+        laid, place = here.window.lay(self.change(here, neighbours), mask.shape)
         inside = mask[place]
         moved = normals[place][inside] + laid[inside]
         moved[:, 2] = np.maximum(moved[:, 2], 1e-3)  # what is seen cannot face away
@@ -82,30 +81,34 @@ class Steadier:
         steadied[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
         return steadied
 
-    def change(self, here: Miniature, around: Around) -> Planes:
+    def change(self, here: RegistrationThumbnail, neighbours: Neighbours) -> Planes:
         """(3, h, w) float32: what brings ``here.vectors`` to the mean, on the fine grid."""
         summed = np.zeros_like(here.vectors)
         weights = np.ones(here.inside.shape, np.float32)
-        for side in (around.before[:REACH], around.after[:REACH]):
+        for side in (neighbours.before[:REACH], neighbours.after[:REACH]):
             seen: Registration | None = None
             for near, far in pairwise([here, *side]):
                 step = self.registration(near, far)
                 seen = step if seen is None else seen.then(step)
-                vectors, trust = carried(far, seen.fine())
+                vectors, trust = warped_normals(far, seen.fine())
                 summed += trust * (vectors - here.vectors)
                 weights += trust
         changed: Planes = summed / weights
         return changed
 
-    def steadied(self, here: Miniature, around: Around) -> Miniature:
+    def smoothed(
+        self, here: RegistrationThumbnail, neighbours: Neighbours
+    ) -> RegistrationThumbnail:
         """``here`` with its vectors brought to the mean."""
-        return replace(here, vectors=here.vectors + self.change(here, around))
+        return replace(here, vectors=here.vectors + self.change(here, neighbours))
 
-    def registration(self, here: Miniature, other: Miniature) -> Registration:
+    def registration(
+        self, here: RegistrationThumbnail, other: RegistrationThumbnail
+    ) -> Registration:
         """``other`` seen from ``here``."""
         return registration(here, other, self._between(here, other), self._between(other, here))
 
-    def _between(self, here: Miniature, other: Miniature) -> Planes:
+    def _between(self, here: RegistrationThumbnail, other: RegistrationThumbnail) -> Planes:
         key = here.name, other.name
         if key not in self._places:
             self._places[key] = places_in(here, other)
@@ -115,7 +118,9 @@ class Steadier:
         return self._places[key]
 
 
-def carried(other: Miniature, seen: Registration) -> tuple[Planes, NDArray[np.float32]]:
+def warped_normals(
+    other: RegistrationThumbnail, seen: Registration
+) -> tuple[Planes, NDArray[np.float32]]:
     """The other's normals, brought to where ``seen`` sees them and turned back with the
     drawing, (3, h, w) on the fine grid; and how far to trust them, (h, w)."""
     planes = sampled(np.concatenate([other.vectors, other.inside[None]]), seen.places)

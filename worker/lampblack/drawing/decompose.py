@@ -26,7 +26,7 @@ _CLEAN = 2.0
 Sample = TypeVar("Sample", bound=np.generic)
 
 
-def take_apart(
+def decompose_drawing(
     pixels: NDArray[np.uint8],
     *,
     mask: NDArray[np.uint8] | None = None,

@@ -9,7 +9,7 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
-from .figure import (
+from .character import (
     SIDEWAYS,
     Canvas,
     canvas_for,
@@ -30,16 +30,16 @@ def mean_vectors(
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """The mean of what the network says of a figure on canvases of several ``sides``, the
     largest last: on small ones it sees the whole, on large ones the parts, and it errs
-    differently on each. As ``figure_vectors``, at the largest size."""
+    differently on each. As ``character_vectors``, at the largest size."""
     *smaller, largest = sides
-    vectors, seen = figure_vectors(network, largest, lines, mask)
+    vectors, seen = character_vectors(network, largest, lines, mask)
     for side in smaller:
-        rough = extend_outside(*figure_vectors(network, side, lines, mask))
+        rough = extend_outside(*character_vectors(network, side, lines, mask))
         vectors += resize(rough, seen.shape)
     return vectors / len(sides), seen
 
 
-def figure_vectors(
+def character_vectors(
     network: nn.Module,
     side: int,
     lines: NDArray[np.float32],
@@ -50,7 +50,7 @@ def figure_vectors(
     """What the network says of a figure, at its canvas's resolution.
 
     Args:
-        network: a ``FigureNet`` in evaluation mode.
+        network: a ``CharacterNet`` in evaluation mode.
         side: of the square whose area the canvas has, pixels.
         lines: (H, W) float32 ink in 0..1. mask: (H, W) bool. Both cropped to the figure.
         mirrored: average with the mirror image, so that a mirrored figure is answered by
@@ -61,7 +61,7 @@ def figure_vectors(
     """
     rows, columns = mask.shape
     canvas = canvas_for((rows, columns), side)
-    fine, coarse, small = figure_input(lines, mask, canvas)
+    fine, coarse, small = character_input(lines, mask, canvas)
     if mirrored:
         flipped = coarse.flip(-1)
         flipped[:, list(SIDEWAYS)] *= -1
@@ -80,7 +80,7 @@ def figure_vectors(
     return found[canvas.inner], small[canvas.inner]
 
 
-def figure_input(
+def character_input(
     lines: NDArray[np.float32], mask: NDArray[np.bool_], canvas: Canvas
 ) -> tuple[torch.Tensor, torch.Tensor, NDArray[np.bool_]]:
     """The (1, 2, h, w) and (1, 10, h/4, w/4) tensors of a figure, and its mask on the canvas."""

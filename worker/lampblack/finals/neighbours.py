@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable
 
-from ..drawing import Drawing, take_apart
+from ..drawing import Drawing, decompose_drawing
 from ..errors import LampblackError
-from ..normals.temporal.miniature import Miniature
-from ..normals.temporal.neighbours import Names, neighbours
-from ..normals.temporal.steady import REACH, Around, Beside
+from ..normals.temporal.neighbours import NeighbourKeys, neighbour_keys
+from ..normals.temporal.temporal_filter import REACH, LazyNeighbours, Neighbours
+from ..normals.temporal.thumbnail import RegistrationThumbnail
 from ..pipeline import Pipeline
 from ..shot import Shot, ShotFrame
 
@@ -17,7 +17,7 @@ _KEPT = 4 * REACH
 _OPEN = REACH + 1
 
 
-class Surroundings:
+class NeighbourLoader:
     """Finds what is around the drawings of a shot, whichever of its frames are lit.
 
     The last few drawings are held whole, and a few more in miniature. ``check`` is called before
@@ -35,11 +35,11 @@ class Surroundings:
         self._check = check
         self._pipeline = pipeline
         self._frames = {frame.drawing: frame for frame in reversed(shot.frames)}
-        self._names = neighbours([frame.drawing for frame in shot.frames], reach)
+        self._names = neighbour_keys([frame.drawing for frame in shot.frames], reach)
         self._drawings: OrderedDict[str, Drawing] = OrderedDict()
-        self._small: OrderedDict[str, Miniature] = OrderedDict()
+        self._small: OrderedDict[str, RegistrationThumbnail] = OrderedDict()
 
-    def names(self, frame: ShotFrame) -> Names:
+    def names(self, frame: ShotFrame) -> NeighbourKeys:
         """Of the drawings around that of ``frame``."""
         return self._names.get(frame.drawing, ((), ()))
 
@@ -52,34 +52,36 @@ class Surroundings:
         self._check()
         if frame.drawing not in self._drawings:
             cel = self._shot.cel(frame)
-            self._drawings[frame.drawing] = take_apart(cel.pixels, mask=cel.mask, ink=cel.ink)
+            self._drawings[frame.drawing] = decompose_drawing(
+                cel.pixels, mask=cel.mask, ink=cel.ink
+            )
             if len(self._drawings) > _OPEN:
                 self._drawings.popitem(last=False)
         self._drawings.move_to_end(frame.drawing)
         return self._drawings[frame.drawing]
 
-    def beside(self, frame: ShotFrame) -> Beside | None:
+    def neighbours(self, frame: ShotFrame) -> LazyNeighbours | None:
         """The neighbours of the drawing of ``frame``, None if it has none; of those before and
         after, none beyond one that cannot be used."""
         names = self.names(frame)
-        return Beside(names, lambda: self._around(frame)) if any(names) else None
+        return LazyNeighbours(names, lambda: self._around(frame)) if any(names) else None
 
-    def _around(self, frame: ShotFrame) -> Around:
-        self._miniature(frame.drawing)  # while it is open: the next drawing will ask for it
-        return Around(*(tuple(self._usable(side)) for side in self.names(frame)))
+    def _around(self, frame: ShotFrame) -> Neighbours:
+        self._thumbnail(frame.drawing)  # while it is open: the next drawing will ask for it
+        return Neighbours(*(tuple(self._usable(side)) for side in self.names(frame)))
 
-    def _usable(self, names: tuple[str, ...]) -> list[Miniature]:
-        found: list[Miniature] = []
+    def _usable(self, names: tuple[str, ...]) -> list[RegistrationThumbnail]:
+        found: list[RegistrationThumbnail] = []
         for name in names:
             try:
-                found.append(self._miniature(name))
+                found.append(self._thumbnail(name))
             except LampblackError:
                 break
         return found
 
-    def _miniature(self, name: str) -> Miniature:
+    def _thumbnail(self, name: str) -> RegistrationThumbnail:
         if name not in self._small:
-            self._small[name] = self._pipeline.miniature(self.drawing(self._frames[name]))
+            self._small[name] = self._pipeline.thumbnail(self.drawing(self._frames[name]))
             if len(self._small) > _KEPT:
                 self._small.popitem(last=False)
         self._small.move_to_end(name)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from ..figure import COARSE, COARSE_CHANNELS, FINE_CHANNELS, LUMO
+from ..character import COARSE, COARSE_CHANNELS, FINE_CHANNELS, LUMO
 
 WIDTHS = (64, 128, 224, 256)
 ATTENTION_LAYERS = 4
@@ -72,7 +72,7 @@ def _convolution(before: int, after: int, kernel: int = 3, stride: int = 1) -> n
     )
 
 
-class FigureNet(nn.Module):
+class CharacterNet(nn.Module):
     """See the module; ``forward`` maps ``figure.FigureInput`` tensors to ``Prediction``s."""
 
     def __init__(self) -> None:

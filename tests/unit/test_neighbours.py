@@ -10,9 +10,9 @@ import pytest
 
 from lampblack.cache import ArrayCache
 from lampblack.drawing import save_picture
+from lampblack.finals.neighbours import NeighbourLoader
 from lampblack.finals.resolve import resolve_shot
 from lampblack.finals.settings import RenderSettings
-from lampblack.finals.surroundings import Surroundings
 from lampblack.pipeline import Pipeline
 from support.command_line import Run, files
 from support.drawings import draw_ball
@@ -38,11 +38,12 @@ def shot(tmp_path: Path) -> RenderSettings:
 def normals_of(settings: RenderSettings, numbers: list[int], cache: Path) -> dict[int, np.ndarray]:
     opened = resolve_shot(settings)
     with Pipeline(ArrayCache(cache)) as pipeline:
-        surroundings = Surroundings(opened.shot, pipeline)
+        neighbour_loader = NeighbourLoader(opened.shot, pipeline)
         frames = {frame.number: frame for frame in opened.frames}
         return {
             number: pipeline.normals(
-                surroundings.drawing(frames[number]), beside=surroundings.beside(frames[number])
+                neighbour_loader.drawing(frames[number]),
+                neighbours=neighbour_loader.neighbours(frames[number]),
             )
             for number in numbers
         }
@@ -69,21 +70,21 @@ def test_neighbours_are_found_only_when_a_surface_is_made(
 ) -> None:
     opened = resolve_shot(shot)
     with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
-        surroundings = Surroundings(opened.shot, pipeline)
+        neighbour_loader = NeighbourLoader(opened.shot, pipeline)
         frame = opened.frames[2]
-        drawing, beside = surroundings.drawing(frame), surroundings.beside(frame)
-        assert beside is not None
-        assert [len(side) for side in beside.names] == [1, 2]
+        drawing, neighbours = neighbour_loader.drawing(frame), neighbour_loader.neighbours(frame)
+        assert neighbours is not None
+        assert [len(side) for side in neighbours.keys] == [1, 2]
         # A blank frame is a cut: nothing is taken from it or from beyond it.
-        found = beside.find()
+        found = neighbours.load()
         assert (len(found.before), len(found.after)) == (1, 1)
-        steady = pipeline.height(drawing, beside=beside)
+        steady = pipeline.height(drawing, neighbours=neighbours)
 
         def unneeded() -> object:
             raise AssertionError
 
-        known = replace(beside, find=unneeded)
-        assert np.array_equal(pipeline.height(drawing, beside=known), steady)
+        known = replace(neighbours, load=unneeded)
+        assert np.array_equal(pipeline.height(drawing, neighbours=known), steady)
         assert not np.array_equal(pipeline.height(drawing), steady)
 
 
@@ -92,7 +93,7 @@ def test_a_drawing_on_its_own_has_no_neighbours(tmp_path: Path) -> None:
     settings = RenderSettings(inputs=(str(tmp_path / "ball.png"),), output=str(tmp_path / "lit"))
     opened = resolve_shot(settings)
     with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
-        assert Surroundings(opened.shot, pipeline).beside(opened.frames[0]) is None
+        assert NeighbourLoader(opened.shot, pipeline).neighbours(opened.frames[0]) is None
 
 
 def test_normals_and_meshes_of_a_shot_are_steadied_unless_told_otherwise(

@@ -15,7 +15,7 @@ _REACH = 6.0
 
 
 @dataclass(frozen=True, eq=False)
-class Miniature:
+class RegistrationThumbnail:
     """About 4 MB, whatever the size of the drawing.
 
     Attributes:
@@ -35,13 +35,13 @@ class Miniature:
     inside: NDArray[np.float32]
 
 
-def miniature(
+def make_thumbnail(
     name: str,
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
     albedo: NDArray[np.float32],
     normals: NDArray[np.float32],
-) -> Miniature:
+) -> RegistrationThumbnail:
     """Make a drawing small.
 
     Args:
@@ -57,7 +57,7 @@ def miniature(
     )
     fine = window.see(np.dstack([inside, normals * inside]), window.fine)
     row, column = ndimage.center_of_mass(seen[0])
-    return Miniature(
+    return RegistrationThumbnail(
         name=name,
         window=window,
         features=_features(seen[0], seen[1], seen[2:]),
