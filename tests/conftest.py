@@ -62,6 +62,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> R
 
     def call(*arguments: object) -> Outcome:
         monkeypatch.setattr(sys, "argv", ["lampblack", *map(str, arguments)])
+        monkeypatch.setenv("PYTHONSAFEPATH", "")
         handler = signal.getsignal(signal.SIGTERM)
         with warnings.catch_warnings(), pytest.raises(SystemExit) as stop:
             main()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import typer
 
 from .. import __version__
@@ -69,5 +71,8 @@ def options(
 
 def main() -> None:
     """Entry point of the ``lampblack`` command."""
+    # Python programs started from here find no modules in the current folder: it may be a
+    # downloaded project. Those of ``multiprocessing`` would look there first.
+    os.environ.setdefault("PYTHONSAFEPATH", "1")
     with for_people():
         app()

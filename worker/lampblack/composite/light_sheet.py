@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from ..colour import linear, srgb
+from ..compiled import compiled
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
 from ..scene import Scene, default_scene
@@ -113,7 +113,7 @@ def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, f
     return found[0], found[1], found[2], found[3]
 
 
-@njit(cache=True, nogil=True)
+@compiled
 def _sample(picture: Any, u: float, v: float, channel: int) -> Any:
     """Bilinear at (u, v) in 0..1, continued past the edges."""
     height, width = picture.shape[0], picture.shape[1]
@@ -127,7 +127,7 @@ def _sample(picture: Any, u: float, v: float, channel: int) -> Any:
     return above + t * (below - above)
 
 
-@njit(cache=True, nogil=True)
+@compiled
 def _encode(table: Any, value: Any) -> Any:
     """sRGB of scene-linear ``value``, clipped to 0..1."""
     at = min(max(value, np.float32(0)), np.float32(1)) * np.float32(STEPS)
@@ -135,7 +135,7 @@ def _encode(table: Any, value: Any) -> Any:
     return table[index] + (at - index) * (table[index + 1] - table[index])
 
 
-@njit(cache=True, nogil=True)
+@compiled
 def _light(
     pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any,
     labels: Any, others: Any, shares: Any,

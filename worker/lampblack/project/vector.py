@@ -105,6 +105,7 @@ class VectorPictures:
             done = subprocess.run(
                 [program, str(project), "-o", str(output), "--start", "1", "--end", str(frames),
                  "--transparency"],
+                cwd=home,
                 env={**kept, **own, "QT_QPA_PLATFORM": "offscreen"},
                 stdin=subprocess.DEVNULL,
                 capture_output=True,

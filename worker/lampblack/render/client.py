@@ -167,6 +167,8 @@ class RenderChild:
             stdout=subprocess.PIPE,
             stderr=self._log,
             env={name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
+            # The user's current folder may be a downloaded project: nothing in it is to be loaded.
+            cwd=os.sep,
             start_new_session=True,
         )
         if self._niceness and hasattr(os, "setpriority"):

@@ -178,11 +178,15 @@ class Worker:
         parent: int | None = None,
         environment: Mapping[str, str] | None = None,
     ) -> None:
-        self.connection = folder / "connection.json"
-        command = [sys.executable, "-m", "lampblack", "serve", "--connection", str(self.connection)]
+        self.connection = folder.absolute() / "connection.json"
+        command = [
+            sys.executable, "-I", "-m", "lampblack", "serve", "--connection", str(self.connection)
+        ]  # fmt: skip
         if parent is not None:
             command += ["--parent-pid", str(parent)]
-        self.process = subprocess.Popen(command, env={**os.environ, **(environment or {})})
+        self.process = subprocess.Popen(
+            command, cwd=os.sep, env={**os.environ, **(environment or {})}
+        )
 
     def __enter__(self) -> Self:
         return self

@@ -66,8 +66,8 @@ def draw_freestyle(jobs: list[tuple[Placed, Stroke]]) -> list[NDArray[np.float32
             )
         try:
             subprocess.run(
-                [sys.executable, "-m", "lampblack_research.render.freestyle", name],
-                env=dict(os.environ),
+                [sys.executable, "-I", "-m", "lampblack_research.render.freestyle", name],
+                cwd=os.sep,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 timeout=SECONDS_A_VIEW * (len(jobs) + 1),
