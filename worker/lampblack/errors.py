@@ -27,7 +27,7 @@ class DrawingError(LampblackError):
 
 
 class NothingDrawnError(DrawingError):
-    """The picture is blank: there is no figure to light."""
+    """The picture is blank: there is no character to light."""
 
 
 class ProjectError(DrawingError):

@@ -1,4 +1,4 @@
-"""The figure's shadow on the floor, laid over whatever lies behind the figure."""
+"""The character's shadow on the floor, laid over whatever lies behind the character."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def shade_background(
     sources: Sequence[tuple[NDArray[np.float32], LightPasses]],
     band: Band,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Shade what shows behind the figure.
+    """Shade what shows behind the character.
 
     Paint is multiplied by the floor's light; where there is no paint the shadow becomes a
     translucent layer that looks the same once laid over white.
@@ -29,7 +29,7 @@ def shade_background(
     Args:
         paint: (H, W, 3) sRGB of the background times ``behind``.
         behind: (H, W, 1) how much of the pixel is background paint.
-        coverage: (H, W, 1) how much is figure.
+        coverage: (H, W, 1) how much is character.
         sources: (3,) weight and passes of each light.
 
     Returns:
@@ -49,7 +49,7 @@ def shade_background(
 def floor_ratio(
     sources: Sequence[tuple[NDArray[np.float32], LightPasses]], band: Band
 ) -> NDArray[np.float32]:
-    """The floor's light with the figure over that without it, all sources together, for the
+    """The floor's light with the character over that without it, all sources together, for the
     pixels of ``band``; 1 where no light falls."""
     floors = [
         (weight * source.floor, weight * source.open_floor)

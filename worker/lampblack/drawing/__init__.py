@@ -1,4 +1,4 @@
-"""Drawings: read from disk, put in order, taken apart into figure, line and fill."""
+"""Drawings: read from disk, ordered by frame, decomposed into character mask, ink and fill."""
 
 from .cutout import character_mask
 from .decompose import decompose_drawing

@@ -1,4 +1,4 @@
-"""A quick look at many pictures at once."""
+"""Contact sheets: many pictures in one."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _PAPER = 255
 
 
 def contact_sheet(rows: list[list[NDArray[np.uint8]]], cell: int = 240) -> NDArray[np.uint8]:
-    """Lay pictures out on white paper, one row a list, each at most ``cell`` px a side.
+    """Arrange pictures on white, one row per list, each at most ``cell`` pixels on a side.
 
     Args:
         rows: pictures (H, W, 4) uint8, sRGB, straight alpha.

@@ -1,4 +1,4 @@
-"""The figure lifted off its paper: straight colour and coverage, as if drawn on nothing."""
+"""The character cut out of its paper: straight colour and coverage."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from .morphology import Mask, highest, lowest, without_specks
 Colours = NDArray[np.uint8]
 
 _DUST = 7
-"""Fewer pixels than this, away from all else on paper, are its grain or the scanner's dust."""
+"""Isolated specks of fewer pixels are paper grain or dust."""
 
 
 @dataclass(frozen=True)
 class Cutout:
-    """The figure without its paper.
+    """The character without its paper.
 
     Attributes:
-        colour: (H, W, 3) uint8 sRGB, the figure's own colour, free of the paper's.
+        colour: (H, W, 3) uint8 sRGB, the character's own colour without the paper's.
         coverage: (H, W) float32 in 0..1.
         mask: (H, W) bool, True inside.
-        grain: noise of the paper, in levels; 0 for art that never was on paper.
-        bare: (3,) uint8 sRGB, the paper within line art; None where fills were painted.
+        grain: noise of the paper, in levels of 255; 0 for transparent art.
+        bare: (3,) uint8 sRGB, the paper inside line art; None where fills are painted.
     """
 
     colour: Colours
@@ -38,15 +38,15 @@ class Cutout:
 
 
 def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None) -> Cutout:
-    """Lift the figure in ``pixels``, (H, W, 4) uint8, off its background.
+    """Cut the character in ``pixels``, (H, W, 4) uint8, out of its background.
 
-    A picture with transparency is cut by its alpha; otherwise the paper is what the border
-    of the picture shows, flooded inwards to the figure. Regions that line encloses belong
-    to the figure even when empty, and are then covered with paper; holes in filled,
-    transparent art stay holes. ``inside``, (H, W) in 0..1, overrides all this.
+    A picture with transparency is cut by its alpha. Otherwise the colour of the picture's
+    border is the paper, which is flooded inwards up to the character. Empty regions enclosed
+    by line belong to the character and are filled with paper. Holes in filled, transparent
+    art stay holes. ``inside``, (H, W) in 0..1, overrides all of this.
 
     Raises:
-        DrawingError: nothing is drawn, or next to nothing.
+        DrawingError: nothing is drawn, or fewer than ``MIN_CHARACTER`` pixels.
     """
     alpha = pixels[..., 3]
     top = int(alpha.max())
@@ -63,14 +63,14 @@ def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None
     count = np.count_nonzero(cutout.mask)
     if count < MIN_CHARACTER:
         raise DrawingError(
-            f"The figure is only {count} pixels large." if count else "Nothing is drawn here.",
-            "Draw or export the figure larger.",
+            f"The character is only {count} pixels large." if count else "Nothing is drawn here.",
+            "Draw or export the character larger.",
         )
     return cutout
 
 
 def character_mask(pixels: NDArray[np.uint8]) -> Mask:
-    """The figure in ``pixels``, (H, W) bool; see ``cut_out``."""
+    """(H, W) bool, the character in ``pixels``; see ``cut_out``."""
     return cut_out(pixels).mask
 
 
@@ -87,7 +87,7 @@ def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
 
 
 def _enclosed(drawn: Mask) -> Mask:
-    """The line and all it encloses."""
+    """The lines and all that they enclose."""
     mask = ~outside_of(drawn, line_art=True)
     if MIN_CHARACTER <= np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
         warnings.warn(
@@ -100,7 +100,7 @@ def _enclosed(drawn: Mask) -> Mask:
 
 
 def _cover_with_paper(pixels: NDArray[np.uint8], mask: Mask, edge: NDArray[np.float32]) -> Cutout:
-    """White paper under all of ``mask`` but its rim, which keeps coverage ``edge``."""
+    """Put white paper under ``mask``. Only its rim keeps the coverage ``edge``."""
     within = lowest(mask, 1)
     drawn = pixels[..., 3] >= 128
     hollow = within & ~drawn
@@ -120,7 +120,7 @@ def _over_white(pixels: NDArray[np.uint8]) -> Colours:
 def _from_paper(picture: Colours) -> Cutout:
     paper, grain = _paper_of(picture)
     tolerance = int(np.clip(8 + 2 * grain, 10, 48))
-    difference = _stray(picture, paper)
+    difference = _difference(picture, paper)
     drawn = without_specks(difference > tolerance, _DUST)
     if not drawn.any():
         raise NothingDrawnError("The paper is blank.", "Choose a picture with a drawing on it.")
@@ -130,8 +130,8 @@ def _from_paper(picture: Colours) -> Cutout:
     return Cutout(colour, coverage, coverage >= 0.5, grain, paper if line_art else None)
 
 
-def _stray(picture: Colours, paper: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Levels by which the channel that strays most from the paper does so, (H, W)."""
+def _difference(picture: Colours, paper: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """(H, W) the largest difference of any channel from the paper, in levels."""
     stray = np.zeros(picture.shape[:2], np.uint8)
     for channel in range(3):
         plane, level = picture[..., channel], paper[channel]
@@ -140,13 +140,12 @@ def _stray(picture: Colours, paper: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _paper_of(picture: Colours) -> tuple[NDArray[np.uint8], float]:
-    """The lightest colour that much of the border wears, and how many levels its grain strays
-    from it."""
+    """The lightest of the common colours of the border, and the noise around it in levels."""
     border = np.concatenate([picture[0], picture[-1], picture[1:-1, 0], picture[1:-1, -1]]).astype(
         np.int16
     )
     coarse = (border >> 5) @ np.array([64, 8, 1], np.int16)
-    # Figures that reach over the border bring their ink there; paper is lighter than ink.
+    # Ink may reach the border too; paper is lighter than ink.
     counts = np.bincount(coarse, minlength=512)
     often = np.flatnonzero(counts >= max(0.15 * len(coarse), 1))
     lightness = (often >> 6) + (often >> 3 & 7) + (often & 7)
@@ -156,7 +155,7 @@ def _paper_of(picture: Colours) -> tuple[NDArray[np.uint8], float]:
     near = stray[stray < 48]
     if len(near) < 0.5 * len(stray):
         warnings.warn(
-            "The background is not plain paper, so the figure may be cut out wrongly; "
+            "The background is not plain paper, so the character may be cut out wrongly; "
             "give a mask, or export the drawing with transparency.",
             LampblackWarning,
             stacklevel=2,
@@ -171,9 +170,9 @@ def _lift(
     difference: NDArray[np.uint8],
     tolerance: int,
 ) -> tuple[Colours, NDArray[np.float32]]:
-    """Solve pixel = coverage x figure + (1 - coverage) x paper along the figure's rim.
+    """Solve pixel = coverage x colour + (1 - coverage) x paper along the character's rim.
 
-    The figure's colour there is taken from the pixel nearby that differs most from paper.
+    The colour is that of the nearby pixel that differs most from the paper.
     """
     edge = ~outside & highest(outside, 1)
     # Soft edges are two pixels deep: behind the edge the colour still grows away from paper.
@@ -182,20 +181,20 @@ def _lift(
     rim = edge | behind | (outside & highest(~outside, 2))
     rows, columns = np.nonzero(rim)
     best = difference[rows, columns].astype(np.int32)
-    figure = picture[rows, columns].astype(np.int16)
+    solid = picture[rows, columns].astype(np.int16)
     height, width = outside.shape
     for dy in range(-2, 3):
         for dx in range(-2, 3):
             y, x = np.clip(rows + dy, 0, height - 1), np.clip(columns + dx, 0, width - 1)
             better = difference[y, x] > best
             best[better] = difference[y, x][better]
-            figure[better] = picture[y, x][better]
-    towards = figure.astype(np.float32) - paper
+            solid[better] = picture[y, x][better]
+    towards = solid.astype(np.float32) - paper
     offset = picture[rows, columns].astype(np.float32) - paper
     share = (offset * towards).sum(axis=1) / np.maximum((towards**2).sum(axis=1), 1)
     share = np.clip(share, 0, 1)
     share[(best <= tolerance) & outside[rows, columns]] = 0
-    # An enclosed white region reaches the rim where the line has a gap: that is figure.
+    # Where the line has a gap, an enclosed white region reaches the rim: it is character.
     share[(best <= tolerance) & ~outside[rows, columns]] = 1
 
     coverage = (~outside).astype(np.float32)

@@ -13,7 +13,7 @@ from ..errors import DrawingError
 from .cutout import Cutout, cut_out
 from .drawing import Drawing
 from .ink import find_ink
-from .layers import separate
+from .layers import separate_layers
 from .lines import line_drawing
 from .load import MAX_PIXELS, MAX_SIDE
 from .mask import ink_from_picture, mask_from_picture
@@ -21,7 +21,7 @@ from .palette import find_palette
 
 _MARGIN = 8
 _CLEAN = 2.0
-"""Levels of grain above which a scan's flat colours are read from a blurred copy."""
+"""Levels of paper grain above which the flat colours are read from a blurred copy."""
 
 Sample = TypeVar("Sample", bound=np.generic)
 
@@ -32,21 +32,22 @@ def decompose_drawing(
     mask: NDArray[np.uint8] | None = None,
     ink: NDArray[np.uint8] | None = None,
 ) -> Drawing:
-    """Take a picture apart into figure, line and fill.
+    """Decompose a picture into character mask, ink and fill.
 
-    Line art is drawn on paper: inside its outline the coverage is 1 and the albedo white
-    (or the paper's colour), also where the picture itself is transparent.
+    Line art counts as drawn on paper: inside its outline the coverage is 1 and the albedo is
+    white (or the paper's colour), even where the picture itself is transparent.
 
     Args:
         pixels: (H, W, 4) uint8, sRGB, straight alpha.
-        mask: a picture of the same size and kind; white or opaque is the figure.
-        ink: a picture of the same size and kind; dark or opaque is ink.
+        mask: the artist's own character mask, same shape and type; white or opaque is inside.
+        ink: the artist's own line, same shape and type; dark or opaque is ink.
 
     Raises:
-        DrawingError: nothing is drawn, the figure is a speck, or a picture does not fit.
+        DrawingError: nothing is drawn, the character is too small, or a picture has another
+            size.
 
     Warns:
-        LampblackWarning: the background is not plain, or the art is painted.
+        LampblackWarning: the background is not plain, or the art has very many colours.
     """
     if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
         raise DrawingError("The picture is not 8-bit RGBA.", "Load it with load_picture.")
@@ -59,21 +60,21 @@ def decompose_drawing(
 
     whole = cut_out(pixels, inside)
     window = _window(whole)
-    figure = replace(
+    cutout = replace(
         whole,
         colour=whole.colour[window],
         coverage=whole.coverage[window],
         mask=whole.mask[window],
     )
     if given is not None:
-        given = np.where(figure.mask, given[window], np.float32(0)).astype(np.float32)
-    lines = find_ink(figure) if given is None else given >= 0.5
-    layers = separate(figure, lines, given)
+        given = np.where(cutout.mask, given[window], np.float32(0)).astype(np.float32)
+    lines = find_ink(cutout) if given is None else given >= 0.5
+    layers = separate_layers(cutout, lines, given)
     fill = layers.fill
-    if figure.grain > _CLEAN:
+    if cutout.grain > _CLEAN:
         fill = ndimage.uniform_filter(fill, (5, 5, 0))
-    palette, labels = find_palette(fill, figure.mask)
-    drawn = line_drawing(layers.ink, fill, labels, figure.mask)
+    palette, labels = find_palette(fill, cutout.mask)
+    drawn = line_drawing(layers.ink, fill, labels, cutout.mask)
 
     return Drawing(
         pixels=pixels,
@@ -88,9 +89,9 @@ def decompose_drawing(
     )
 
 
-def _window(figure: Cutout) -> tuple[slice, slice]:
-    """The box around the figure with a margin for what continues past its edge."""
-    drawn = figure.coverage > 0
+def _window(cutout: Cutout) -> tuple[slice, slice]:
+    """The box around the character, with a margin for layers that continue past its edge."""
+    drawn = cutout.coverage > 0
     rows = np.flatnonzero(drawn.any(axis=1))
     columns = np.flatnonzero(drawn.any(axis=0))
     top, left = max(0, rows[0] - _MARGIN), max(0, columns[0] - _MARGIN)

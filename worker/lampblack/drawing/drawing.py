@@ -1,4 +1,4 @@
-"""One frame of drawn art, taken apart into what the later stages need."""
+"""One frame of drawn art, decomposed into the layers that the later stages need."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from .palette import Palette
 class Drawing:
     """A drawing in canvas pixels (row 0 at the top), H x W.
 
-    Laying ``ink_colour`` over ``albedo`` with coverage ``ink``, and that over the background
-    with ``coverage``, gives ``pixels`` back to within rounding wherever the figure is drawn:
-    so a figure lit by white light of unit irradiance *is* the drawing.
+    Compositing ``ink_colour`` over ``albedo`` with coverage ``ink``, and the result over the
+    background with ``coverage``, gives ``pixels`` back to within rounding. So a character lit
+    by white light of unit irradiance *is* the drawing.
 
     Attributes:
         pixels: (H, W, 4) uint8, sRGB, straight alpha, as read.
-        mask: (H, W) bool, True inside the figure (its line included).
-        coverage: (H, W) float32 in 0..1, how much of the pixel the figure covers
-            (anti-aliased edge); 0 far outside the mask. Transparent art: its alpha, but
-            1 within line art, which is lit as if drawn on white paper.
-        lines: (H, W) float32 in 0..1, the line drawing that predicts the normals: ink, or
-            colour borders where no ink was drawn; 0 outside the mask.
+        mask: (H, W) bool, True inside the character (its line included).
+        coverage: (H, W) float32 in 0..1, share of the pixel that the character covers
+            (anti-aliased edge); 0 far outside the mask. For transparent art this is its
+            alpha, except 1 inside line art, which is lit as if drawn on white paper.
+        lines: (H, W) float32 in 0..1, the line drawing from which the normals are predicted:
+            ink, or colour borders where no ink was drawn; 0 outside the mask.
         ink: (H, W) float32 in 0..1, coverage of the artist's line over the fill.
         ink_colour: (H, W, 3) float32 sRGB in 0..1, colour of the line where ``ink`` > 0.
-        albedo: (H, W, 3) float32 sRGB in 0..1, the fill, continued beneath the line and a
-            few pixels past the mask.
+        albedo: (H, W, 3) float32 sRGB in 0..1, the fill, continued under the line and a few
+            pixels past the mask.
         labels: (H, W) int16 index into ``palette.swatches`` of the fill, -1 outside.
         palette: the flat colours of the fill.
     """

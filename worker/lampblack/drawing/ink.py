@@ -1,4 +1,4 @@
-"""The artist's line: thin, dark valleys in the colour of the figure."""
+"""The artist's line: thin, dark valleys of luma."""
 
 from __future__ import annotations
 
@@ -19,36 +19,36 @@ from .morphology import (
 
 _HAIRLINE = 0.005
 _BRUSH = 0.02
-"""Reach of the search for lines, as shares of the figure's diagonal: lines of any colour up
-to twice the first wide, lines of the main ink up to twice the second."""
+"""Reach of the search for lines, as shares of the character's diagonal. Lines of any colour may
+be twice the first wide, lines of the main ink twice the second."""
 
 _SHALLOWEST = 22
-"""How much darker than both its sides a line must be, in levels of luma."""
+"""How much darker than both sides a line must be, in levels of luma."""
 
 _SAME_INK = 45
-"""Levels a pixel may stray from the main ink and still be of it."""
+"""Levels by which a pixel may differ from the main ink and still belong to it."""
 
 
-def find_ink(figure: Cutout) -> Mask:
-    """Where the figure is line rather than fill.
+def find_ink(cutout: Cutout) -> Mask:
+    """Find the pixels of the character that are line, not fill.
 
-    A line is a valley of luma that a closing fills: narrow and darker than what lies on its
-    sides. The colour most valleys share is the main ink; all that wears it is line, even
-    where there is fill on one side only or none (outlines, whiskers), except areas wider
-    than the drawing's own lines: those are filled blacks. In line art all that is darker than
-    the bare paper is line, however faint or broken.
+    A line is a valley of luma that a morphological closing fills: it is narrow and darker
+    than both sides. The most common colour of the valleys is the main ink. All pixels of that
+    colour are line, even with fill on one side or none (outlines, whiskers), except areas
+    wider than the drawing's own lines, which are filled with black. In line art every pixel
+    darker than the bare paper is line, however faint or broken.
 
     Returns:
-        (H, W) bool; nowhere True when the drawing has fewer lines than would go a quarter
-        of the way around it; the whole figure when it is bare line that encloses nothing.
+        (H, W) bool. Nowhere True if the lines are shorter than a quarter of the outline. The
+        whole character if it consists of lines that enclose nothing.
     """
-    colour, mask = figure.colour, figure.mask
+    colour, mask = cutout.colour, cutout.mask
     span = character_span(mask)
     light = luma(colour)
     hairline = max(2, round(_HAIRLINE * span))
     brush = max(4, round(_BRUSH * span))
-    if figure.bare is not None:
-        paper = luma(figure.bare)
+    if cutout.bare is not None:
+        paper = luma(cutout.bare)
         marks = _deep(np.where(mask, paper - np.minimum(light, paper), np.uint8(0)), hairline)
         return marks & ~_wide_parts(marks, brush)
     lines = _valleys(light, mask, hairline)
@@ -72,7 +72,7 @@ def luma(colour: Colours) -> NDArray[np.uint8]:
 def _valleys(light: NDArray[np.uint8], mask: Mask, reach: int) -> Mask:
     """Pixels at least half as deep as the deepest of a valley up to ``2 reach`` wide.
 
-    The closing looks at the figure only, so an outline counts by the fill on its one side.
+    Only the character is closed, so an outline is compared with the fill on its one side.
     """
     hill = highest(np.where(mask, light, np.uint8(0)), reach)
     depth = lowest(np.where(mask, hill, np.uint8(255)), reach) - light
@@ -86,7 +86,7 @@ def _deep(depth: NDArray[np.uint8], reach: int) -> Mask:
 
 
 def _main_ink(colour: Colours, lines: Mask) -> NDArray[np.int16] | None:
-    """The most common colour in the middle of the lines."""
+    """(3,) the most common colour in the middle of the lines; None if there is none."""
     middle = lines & np.roll(lines, 1, 0) & np.roll(lines, 1, 1)
     drawn = colour[middle if middle.any() else lines].astype(np.int16)
     if not len(drawn):
@@ -106,7 +106,7 @@ def _alike(colour: Colours, main: NDArray[np.int16]) -> Mask:
 
 
 def _wide_parts(area: Mask, widest: int) -> Mask:
-    """The parts of ``area`` that a ball clearly wider than most of its lines can roll in."""
+    """The parts of ``area`` that fit a disc clearly wider than most of its lines."""
     depth = depth_within(np.pad(area, 1))[1:-1, 1:-1]
     ridge = depth[area & (depth >= highest(depth, 1))]
     if not len(ridge):
@@ -118,7 +118,7 @@ def _wide_parts(area: Mask, widest: int) -> Mask:
     if not core.any():
         return core
     wide = area & near(core, radius + 2.5)
-    # The ball does not reach into corners; what it leaves there is no line.
+    # The disc does not fit into corners; what remains there is no line.
     rest = area & ~wide
     corners = rest & ~without_specks(rest, round(4 * usual**2))
     return regions_holding(wide | corners, wide)

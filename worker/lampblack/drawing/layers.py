@@ -1,4 +1,4 @@
-"""Line and fill pulled apart: how much ink lies over each pixel, and what lies beneath."""
+"""Separation of line and fill: how much ink covers each pixel, and the fill under it."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class Layers:
     Attributes:
         ink: (H, W) float32 in 0..1.
         ink_colour: (H, W, 3) float32 sRGB in 0..1.
-        albedo: (H, W, 3) float32 sRGB in 0..1, continued beneath the ink and everywhere
-            around the figure.
-        fill: (H, W, 3) uint8 sRGB, the albedo before it took up the rounding of mixed
+        albedo: (H, W, 3) float32 sRGB in 0..1, continued under the ink and around the
+            character.
+        fill: (H, W, 3) uint8 sRGB, the albedo before it is adjusted to the rounding of mixed
             pixels: flat where the fill is flat.
     """
 
@@ -34,17 +34,20 @@ class Layers:
     fill: Colours
 
 
-def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = None) -> Layers:
+def separate_layers(
+    cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = None
+) -> Layers:
     """Solve pixel = ink x ink_colour + (1 - ink) x albedo for all three.
 
-    Pixels away from the line are fill, those in its middle ink; the mixed ones between
-    project their colour onto the way from the nearest fill to the nearest ink. What is left
-    over goes to the layer that shows more, so that the layers always give the drawing back.
+    Pixels away from the line are fill, pixels in its middle are ink. The colour of a mixed
+    pixel is projected onto the line from the nearest fill to the nearest ink. The remaining
+    difference goes to the layer that covers more of the pixel, so that the layers always
+    reproduce the drawing.
 
     Args:
-        cutout: the figure.
-        lines: (H, W) bool, at least about half covered by ink.
-        given: (H, W) float32, the ink's coverage where the artist has painted it.
+        cutout: the character.
+        lines: (H, W) bool, pixels that are at least about half ink.
+        given: (H, W) float32, the ink's coverage if the artist painted it.
     """
     colour, mask = cutout.colour, cutout.mask
     touched = highest(lines, 2) & (cutout.coverage > 0)
@@ -60,7 +63,7 @@ def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = No
         share[~mask[rows, columns] & lines[rows, columns]] = 1
     else:
         share = given[rows, columns]
-    over, under = _take_up_rest(pixel, share, over, under)
+    over, under = _absorb_remainder(pixel, share, over, under)
 
     ink = np.zeros(mask.shape, np.float32)
     ink[rows, columns] = share
@@ -72,11 +75,11 @@ def separate(cutout: Cutout, lines: Mask, given: NDArray[np.float32] | None = No
 
 
 def _continue_fill(cutout: Cutout, touched: Mask, lines: Mask) -> Colours:
-    """The fill's colours, carried on from the nearest pixel that ink does not touch."""
+    """The fill's colours, continued from the nearest pixel without ink."""
     solid = cutout.mask & (cutout.coverage >= 0.99 * cutout.coverage.max())
     sure = solid & ~touched
-    # Between two close lines every pixel is near ink; the lightest there, if several agree,
-    # are free of it.
+    # Between two close lines every pixel is near ink. The lightest pixels there, if several
+    # are alike, are fill.
     light = np.where(solid & ~lines, luma(cutout.colour), np.uint8(0))
     lightest = (light > 0) & (highest(light, 2) - light <= _ALIKE)
     sure |= lightest & without_specks(lightest, 3) & ~highest(sure, 2)
@@ -89,7 +92,7 @@ def _continue_fill(cutout: Cutout, touched: Mask, lines: Mask) -> Colours:
 
 
 def _pure_ink(colour: Colours, lines: Mask) -> Colours:
-    """Every pixel's nearest ink that no fill shines through: the darkest of its line."""
+    """For every pixel the nearest ink that covers fully: the darkest of its line."""
     if not lines.any():
         return colour
     light = np.where(lines, luma(colour), np.uint8(255))
@@ -101,7 +104,7 @@ Samples = NDArray[np.float32]
 
 
 def _share(pixel: Samples, under: Samples, over: Samples) -> Samples:
-    """How far each pixel lies on the way from the fill beneath to the ink over it."""
+    """The share of ink of each pixel between the fill under it and the ink over it."""
     way = over - under
     length = (way**2).sum(axis=1)
     share = ((pixel - under) * way).sum(axis=1) / np.maximum(length, 1e-4)
@@ -111,13 +114,13 @@ def _share(pixel: Samples, under: Samples, over: Samples) -> Samples:
     return np.asarray(share, np.float32)
 
 
-def _take_up_rest(
+def _absorb_remainder(
     pixel: Samples, share: Samples, over: Samples, under: Samples
 ) -> tuple[Samples, Samples]:
-    """Layers that give ``pixel`` back, where those given miss it by more than rounding."""
+    """Adjust the layers where they miss ``pixel`` by more than rounding."""
     part = share[:, None]
     mostly_ink = part >= 0.5
-    # Rounding itself is left alone: solving for it would only amplify it in the fill.
+    # Errors within rounding stay: solving for them would amplify them in the fill.
     missed = np.abs(part * over + (1 - part) * under - pixel).max(axis=1) > 1.2 / 255
     for first in (True, False):
         solved_over = np.clip((pixel - (1 - part) * under) / np.maximum(part, 1e-3), 0, 1)

@@ -1,4 +1,4 @@
-"""The line drawing that the normals are predicted from."""
+"""The line drawing from which the normals are predicted."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from .cutout import Colours
 from .morphology import Mask, highest, lowest, without_specks
 
 _SHORTEST = 12
-"""Pixels of a border below which it is a fleck of an airbrush."""
+"""Borders of fewer pixels are flecks of an airbrush."""
 
 _STRONG = 16
-"""Levels by which two fills must differ for their border to stand in for a line."""
+"""Levels by which two fills must differ for their border to count as a line."""
 
 
 def line_drawing(
     ink: NDArray[np.float32], fill: Colours, labels: NDArray[np.int16], mask: Mask
 ) -> NDArray[np.float32]:
-    """The ink, and where none was drawn, the figure's outline and the borders of its fills,
-    two pixels wide.
+    """The ink; where none is drawn, the character's outline and the borders of its fills, two
+    pixels wide.
 
     Args:
         ink: (H, W) float32 in 0..1.
@@ -38,8 +38,8 @@ def line_drawing(
 
 
 def _colour_borders(fill: Colours, labels: NDArray[np.int16]) -> Mask:
-    """Both pixels at each change of label where the colour changes too, not just its name:
-    the steps of a painted gradient are no borders."""
+    """Both pixels at each change of label where the colour changes clearly too: the steps of a
+    painted gradient are no borders."""
     found = np.zeros(labels.shape, bool)
     for swap in (False, True):
         kind = labels.T if swap else labels

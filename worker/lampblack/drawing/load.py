@@ -1,4 +1,4 @@
-"""Pictures in and out of the project: PNG files, always as sRGB with straight alpha."""
+"""PNG files read and written, always as sRGB with straight alpha."""
 
 from __future__ import annotations
 
@@ -46,9 +46,8 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
 def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
     """Read a PNG of any colour type and depth; ``name`` is for the errors.
 
-    16-bit samples are brought to 8 bits. The size is judged from the header, before any
-    pixel is decoded, and every chunk's checksum must hold, so that a file cut short is
-    refused rather than shown in part.
+    16-bit samples become 8-bit ones. The size is checked from the header, before any pixel is
+    decoded. Every chunk's checksum must hold, so that a truncated file is refused.
 
     Returns:
         (H, W, 4) uint8, sRGB, straight alpha, row 0 at the top.
@@ -81,7 +80,7 @@ def save_picture(path: str | Path, picture: NDArray[np.uint8]) -> None:
 
 
 def _check_header(file: BinaryIO, name: str) -> int:
-    """Bits per sample, after the size has been found to be within bounds."""
+    """Check the signature and the size. Returns the bits per sample."""
     header = file.read(29)
     if header[:8] != _SIGNATURE:
         raise DrawingError(f"{name} is not a PNG picture.", _PLAIN_PNG)
@@ -97,14 +96,14 @@ def _check_header(file: BinaryIO, name: str) -> int:
 
 
 def _open_png(file: BinaryIO) -> PngImageFile:
-    # Not Image.open: the size has been judged already, and its own guard only warns.
+    # Not Image.open: the size is checked already, and its own guard only warns.
     file.seek(0)
     return PngImageFile(file)
 
 
 def _decode(image: PngImageFile, depth: int) -> NDArray[np.uint8]:
-    """Pillow's picture as RGBA, mending what it gets wrong about transparent colours
-    (``tRNS``) of unusual depths and about 16-bit grey, which ``convert`` would clip."""
+    """Pillow's picture as RGBA. Corrects its handling of transparent colours (``tRNS``) of
+    unusual depths, and of 16-bit grey, which ``convert`` would clip."""
     image.load()
     key = image.info.get("transparency")
     if image.mode.startswith("I"):

@@ -1,4 +1,4 @@
-"""Which pixels are the figure: by its transparency, or by what encloses it on the paper."""
+"""The character mask: which pixels belong to the character."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from ..errors import DrawingError
 from .morphology import Mask, depth_within, highest, near, regions_holding
 
 MIN_CHARACTER = 16
-"""A figure of fewer pixels is dust, not a drawing."""
+"""Fewer pixels than this are dust, not a character."""
 
 _WIDEST_LINE = 0.018
 _GAPS = (0.008, 0.012, 0.024)
-"""Shares of the figure's diagonal: half the width of a line, and the gaps in an outline."""
+"""Shares of the character's diagonal: half the widest line, and gaps in an outline."""
 
 
 def mask_from_picture(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.float32]:
-    """The figure as the artist painted it: white or opaque is inside.
+    """The character as the artist painted it: white or opaque is inside.
 
     Args:
         picture: (H, W, 4) uint8, sRGB, straight alpha.
@@ -28,18 +28,18 @@ def mask_from_picture(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDAr
         (H, W) float32 in 0..1.
 
     Raises:
-        DrawingError: of another size than the drawing, or nothing inside.
+        DrawingError: the mask has another size than the drawing, or nothing is inside.
     """
     inside = _painted(picture, size, "mask", white=True)
     if np.count_nonzero(inside >= 0.5) < MIN_CHARACTER:
         raise DrawingError(
-            "The mask has nothing inside.", "Paint the figure white, or opaque on transparency."
+            "The mask has nothing inside.", "Paint the character white, or opaque on transparency."
         )
     return inside
 
 
 def ink_from_picture(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.float32]:
-    """The line as the artist painted it: dark or opaque is ink; see ``mask_from_picture``."""
+    """The ink as the artist painted it: dark or opaque is ink; see ``mask_from_picture``."""
     return _painted(picture, size, "ink", white=False)
 
 
@@ -61,7 +61,7 @@ def _painted(
 
 
 def is_line_art(drawn: Mask) -> bool:
-    """Whether nearly all that is drawn is as thin as a line, so that nothing is filled."""
+    """Whether nearly all drawn pixels belong to thin lines, so that nothing is filled."""
     span = character_span(drawn)
     stride = max(1, int(span // 500))
     depth = depth_within(np.pad(drawn[::stride, ::stride], 1)) * stride
@@ -70,7 +70,7 @@ def is_line_art(drawn: Mask) -> bool:
 
 
 def character_span(drawn: Mask) -> float:
-    """Diagonal, in pixels, of the box around what is drawn: the measure of line widths."""
+    """Diagonal in pixels of the bounding box of ``drawn``: line widths are measured against it."""
     rows = np.flatnonzero(drawn.any(axis=1))
     columns = np.flatnonzero(drawn.any(axis=0))
     if not len(rows):
@@ -79,15 +79,15 @@ def character_span(drawn: Mask) -> float:
 
 
 def outside_of(drawn: Mask, *, line_art: bool) -> Mask:
-    """What lies around the figure: all that the border of the picture reaches without
-    crossing what is drawn.
+    """The background: all pixels connected to the border of the picture without crossing
+    ``drawn``.
 
-    Line art may leave gaps in its outline. A ball too large for the gaps is rolled around
-    the figure, then the narrow bays it could not enter are given back, unless a chamber lies
-    behind them: the trapped ball of Zhang et al., "Vectorizing Cartoon Animations", TVCG
-    2009. The edge so found is exactly at the line. The smallest ball serves that encloses
-    nearly as much as the largest does. Line art cut by the picture's edge is closed there;
-    only the parts of the edge next to a corner are outside.
+    Line art may have gaps in its outline. Its background is found by trapped-ball flooding
+    (Zhang et al., "Vectorizing Cartoon Animations", TVCG 2009): a ball too large for the gaps
+    floods the background; then narrow bays that the ball could not enter are added, unless
+    they lead into a wider region. The edge lies exactly at the line. The smallest ball that
+    encloses nearly as much as the largest is used. Line art cut by the picture's edge is
+    closed there: only the parts of the edge next to a corner count as background.
     """
     if not line_art:
         return _reached(np.pad(~drawn, 1, constant_values=True))[1:-1, 1:-1]
@@ -105,7 +105,7 @@ def outside_of(drawn: Mask, *, line_art: bool) -> Mask:
 
 
 def _rolled_around(empty: Mask, depth: NDArray[np.float32], gap: float) -> Mask:
-    """What a ball of radius ``gap`` reaches from outside, and the bays beside it."""
+    """The area that a ball of radius ``gap`` reaches from outside, and its narrow bays."""
     outside = empty & near(_reached(depth > gap), gap)
     bays = empty & ~outside
     bays &= ~regions_holding(bays, depth > gap)
@@ -114,8 +114,8 @@ def _rolled_around(empty: Mask, depth: NDArray[np.float32], gap: float) -> Mask:
 
 
 def _closed_at_edges(empty: Mask) -> Mask:
-    """``empty`` in a frame one pixel wide, walled where lines leave the picture and between
-    them; only the stretches of the edge that hold a corner stay open."""
+    """``empty`` in a frame one pixel wide. The frame is open only next to the corners, up to
+    where the first line leaves the picture."""
     framed = np.pad(empty, 1, constant_values=True)
     for side in range(4):
         edge = np.rot90(empty, side)[0]
@@ -126,6 +126,6 @@ def _closed_at_edges(empty: Mask) -> Mask:
 
 
 def _reached(empty: Mask) -> Mask:
-    """The part of ``empty`` that hangs together with its corner."""
+    """The connected part of ``empty`` that contains its corner."""
     regions, _ = ndimage.label(empty)
     return np.asarray(regions == regions[0, 0])

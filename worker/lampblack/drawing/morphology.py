@@ -1,7 +1,7 @@
-"""Neighbourhoods of pixels: square windows, distances and nearest places.
+"""Morphology: square windows, distances and nearest pixels.
 
-scipy's filters go through doubles and its distance transform through several of them per
-pixel; these stay in the picture's own type, in bands, so that a 4096 pixel drawing fits.
+scipy's filters and distance transform convert to doubles, several per pixel. These functions
+keep the picture's own type and work in bands, so that a drawing of 4096 pixels fits in memory.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def highest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
     """The greatest value in the square of ``2 reach + 1`` pixels around each pixel.
 
     Args:
-        image: (H, W), bool or not negative; what lies beyond its edge counts as 0.
+        image: (H, W), bool or not negative. Pixels beyond its edge count as 0.
     """
     return _highest_across(_highest_down(image, reach), reach)
 
@@ -47,8 +47,8 @@ def _highest_across(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
 
 
 def lowest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
-    """The least value in the same square, for bool and unsigned images; what lies beyond
-    the edge counts as the type's greatest."""
+    """The least value in the same square, for bool and unsigned images. Pixels beyond the edge
+    count as the type's greatest value."""
     return np.asarray(~highest(~image, reach))
 
 
@@ -67,12 +67,12 @@ def depth_within(area: Mask) -> NDArray[np.float32]:
 
 
 def near(places: Mask, distance: float) -> Mask:
-    """Pixels no further than ``distance`` from one of ``places``."""
+    """Pixels at most ``distance`` from one of ``places``."""
     return np.asarray(depth_within(~places) <= distance) if places.any() else places
 
 
 def from_nearest(image: NDArray[Sample], places: Mask) -> NDArray[Sample]:
-    """Every pixel takes the value that ``image`` has at the nearest of ``places``."""
+    """For every pixel the value of ``image`` at the nearest of ``places``."""
     taken = np.empty_like(image)
     rows, columns = _nearest(places)
     for band in _bands(places):
@@ -81,7 +81,7 @@ def from_nearest(image: NDArray[Sample], places: Mask) -> NDArray[Sample]:
 
 
 def regions_holding(area: Mask, seeds: Mask) -> Mask:
-    """The connected regions of ``area`` that hold at least one of ``seeds``."""
+    """The connected regions of ``area`` that contain at least one of ``seeds``."""
     regions, count = ndimage.label(area, np.ones((3, 3)))
     chosen = np.zeros(count + 1, bool)
     chosen[regions[seeds]] = True
@@ -90,7 +90,7 @@ def regions_holding(area: Mask, seeds: Mask) -> Mask:
 
 
 def without_specks(area: Mask, smallest: int) -> Mask:
-    """The connected regions of ``area`` of at least ``smallest`` pixels."""
+    """The connected regions of ``area`` that have at least ``smallest`` pixels."""
     regions, count = ndimage.label(area, np.ones((3, 3)))
     keep = np.bincount(regions.ravel(), minlength=count + 1) >= smallest
     keep[0] = False

@@ -15,18 +15,18 @@ from .morphology import Mask, from_nearest, highest, lowest
 MAX_SWATCHES = 64
 
 _APART = 10
-"""Levels by which some channel of two flat colours differs, or they are one colour."""
+"""Levels by which at least one channel of two flat colours must differ."""
 
 _SMOOTH = 20
-"""Levels across a pixel's neighbourhood above which it is a blend of two areas."""
+"""Range of levels around a pixel above which the pixel is a mixture of two areas."""
 
 _BELONGS = 28
-"""Levels a pixel may stray from a swatch before it needs another one."""
+"""Levels by which a pixel may differ from its swatch."""
 
 
 @dataclass(frozen=True)
 class Swatch:
-    """One flat colour: ``#rrggbb`` in sRGB, and how many pixels of the fill wear it."""
+    """One flat colour: ``#rrggbb`` in sRGB, and its number of pixels in the fill."""
 
     colour: str
     pixels: int
@@ -45,27 +45,28 @@ class Palette:
 
 
 def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]:
-    """The flat colours of ``fill`` and which of them each pixel wears.
+    """The flat colours of ``fill``, and which of them each pixel has.
 
-    A flat colour is one that neighbouring pixels share exactly. Blends along edges take the
-    label of the nearest pixel that is no blend. Painted areas, which have no flat colour,
-    get the cells of a fixed lattice, so that their keys stay put from frame to frame.
+    A flat colour is one that neighbouring pixels share exactly. Mixed pixels along edges take
+    the label of the nearest pixel that is not mixed. Painted areas have no flat colour. They
+    get colours of a fixed lattice, so that their keys are the same from frame to frame.
 
     Args:
-        fill: (H, W, 3) uint8 sRGB, continued beneath the ink.
+        fill: (H, W, 3) uint8 sRGB, continued under the ink.
         mask: (H, W) bool.
 
     Returns:
         The palette, and (H, W) int16 indices into it, -1 outside the mask.
 
     Warns:
-        LampblackWarning: painted art, or more than ``MAX_SWATCHES`` colours, was grouped.
+        LampblackWarning: the art is painted or has more than ``MAX_SWATCHES`` colours, which
+            were grouped.
     """
     packed = _pack(fill)
     smooth = mask & (_spread(fill, 1) <= _SMOOTH)
     if not smooth.any():
         smooth = mask
-    # Wide areas first: between them, tones of an airbrush share colours here and there too.
+    # Wide areas first: in an airbrushed gradient a few neighbours share colours by chance.
     flats = _flat_colours(packed, mask & (_spread(fill, 2) == 0), _APART, _no_colours())
     flats = _flat_colours(packed, _shared(packed, smooth), _BELONGS, flats)
     cells = _cells(packed)
@@ -89,7 +90,7 @@ def find_palette(fill: Colours, mask: Mask) -> tuple[Palette, NDArray[np.int16]]
 
 
 def _spread(fill: Colours, reach: int) -> NDArray[np.uint8]:
-    """Levels between the extremes of any channel, within ``reach`` of each pixel."""
+    """The largest range of any channel within ``reach`` of each pixel, in levels."""
     spread = np.zeros(fill.shape[:2], np.uint8)
     for channel in range(3):
         plane = fill[..., channel]
@@ -98,7 +99,7 @@ def _spread(fill: Colours, reach: int) -> NDArray[np.uint8]:
 
 
 def _shared(packed: NDArray[np.int32], smooth: Mask) -> Mask:
-    """Smooth pixels that wear the very colour of their left and upper neighbours."""
+    """Smooth pixels with exactly the colour of their left and upper neighbours."""
     same = smooth.copy()
     same[:, 1:] &= packed[:, 1:] == packed[:, :-1]
     same[1:] &= packed[1:] == packed[:-1]
@@ -112,7 +113,7 @@ def _no_colours() -> NDArray[np.int16]:
 def _flat_colours(
     packed: NDArray[np.int32], where: Mask, apart: int, kept: NDArray[np.int16]
 ) -> NDArray[np.int16]:
-    """``kept``, and the colours found ``where``, most used first, each clear of the others."""
+    """``kept`` and the colours found ``where``, most used first, each distinct from the others."""
     values, counts = np.unique(packed[where], return_counts=True)
     enough = counts >= max(8, 2e-4 * np.count_nonzero(where))
     order = np.argsort(-counts[enough], kind="stable")
@@ -127,8 +128,8 @@ def _flat_colours(
 def _add_painted(
     flats: NDArray[np.int16], centres: NDArray[np.int16], counts: NDArray[np.int64]
 ) -> tuple[NDArray[np.int16], bool]:
-    """Lattice colours for the cells that no flat colour stands for, and whether it was
-    worth a word."""
+    """Add lattice colours for cells that no flat colour represents. Returns also whether these
+    are enough pixels for a warning."""
     far = np.ones(len(centres), bool)
     if len(flats):
         far = np.abs(centres[:, None] - flats[None]).max(axis=2).min(axis=1) > _BELONGS
@@ -150,7 +151,7 @@ def _add_painted(
 
 
 def _cells(packed: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Five bits a channel."""
+    """The lattice cell of each colour: five bits per channel."""
     return ((packed >> 9) & 0x7C00) | ((packed >> 6) & 0x3E0) | ((packed >> 3) & 0x1F)
 
 
@@ -186,7 +187,7 @@ def _nearest_key(colours: NDArray[np.int16], keys: NDArray[np.int16]) -> NDArray
 def _with_exact(
     labels: NDArray[np.int16], packed: NDArray[np.int32], keys: NDArray[np.int16]
 ) -> NDArray[np.int16]:
-    """Two keys may share a cell: a pixel of exactly a key's colour wears that key."""
+    """Two keys may share a cell: a pixel of exactly a key's colour gets that key."""
     codes = _pack(keys)
     order = np.argsort(codes)
     place = np.minimum(np.searchsorted(codes[order], packed), len(codes) - 1)

@@ -1,4 +1,4 @@
-"""From what was named on the command line to frames in order."""
+"""Files, folders and patterns to frames in order."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _RANGE = re.compile(r"(\d{1,9})(?:-(\d{1,9})(?:x(\d{1,9}))?)?")
 
 
 class HasNumber(Protocol):
-    """A frame of any kind."""
+    """Any kind of frame."""
 
     @property
     def number(self) -> int | None:
-        """None where frames are not numbered."""
+        """The frame's number; None where frames are not numbered."""
 
 
 Numbered = TypeVar("Numbered", bound=HasNumber)
@@ -42,11 +42,11 @@ def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
 
     An input is a PNG file, a folder of them, or a printf pattern (``walk.%04d.png``). The
     frame number is the run of digits before ``.png`` (``walk.0001.png``, ``walk0001.png``).
-    A folder's and a pattern's frames come by number, gaps and all; inputs keep their order,
-    and a file named twice counts once.
+    The frames of a folder or a pattern are sorted by number; gaps are allowed. Inputs keep
+    their order. A file that is named twice counts once.
 
     Raises:
-        DrawingError: nothing named, missing, or a folder without PNG files.
+        DrawingError: nothing is named, a file is missing, or a folder has no PNG files.
     """
     if not inputs:
         raise DrawingError("No drawing was named.", "Name a PNG file or a folder of them.")
@@ -65,7 +65,7 @@ def parse_frames(text: str) -> list[int]:
     Ascending, each number once.
 
     Raises:
-        DrawingError: not such a list, a range that runs backwards, or too many frames.
+        DrawingError: the text is no such list, a range runs backwards, or there are too many.
     """
     numbers: set[int] = set()
     for part in text.split(","):
@@ -79,7 +79,7 @@ def parse_frames(text: str) -> list[int]:
         step = int(match[3] or 1)
         if last < first or step < 1:
             raise DrawingError(
-                f"The frames {part.strip()!r} run backwards or stand still.",
+                f"The frames {part.strip()!r} run backwards or have no step.",
                 "Write the lower number first and a step of at least 1.",
             )
         span = range(first, last + 1, step)
@@ -90,7 +90,7 @@ def parse_frames(text: str) -> list[int]:
 
 
 def frame_list(numbers: Sequence[int]) -> str:
-    """Ascending numbers as ``parse_frames`` reads them, runs as ranges: ``1-4,9``."""
+    """Ascending numbers as text for ``parse_frames``, consecutive ones as ranges: ``1-4,9``."""
     runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][-1] + 1:
@@ -104,10 +104,10 @@ def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[
     """The frames whose number is in ``numbers``, in their own order.
 
     Raises:
-        DrawingError: none of them is there.
+        DrawingError: none of the numbers exists.
 
     Warns:
-        LampblackWarning: some of them are not.
+        LampblackWarning: some of the numbers do not exist.
     """
     wanted = set(numbers)
     chosen = [frame for frame in frames if frame.number in wanted]

@@ -27,13 +27,13 @@ class NetworkCard:
 
     Attributes:
         architecture: a name in ``networks.ARCHITECTURES``.
-        figure_px: (smallest, largest) long side of the figures it was trained on, pixels;
-            drawings outside are resized into that range. For a network of whole figures, the
-            sides of the squares whose areas its canvases have, the smallest first: it answers
-            with the mean over all of them.
-        roundness: factor on the slopes that undoes the flatness of its means.
-        training: how it came to be, for people.
-        measured: figures it reached, for people.
+        figure_px: for a network of tiles, the (smallest, largest) long side in pixels of the
+            characters it was trained on; other drawings are resized into that range. For a
+            network of whole characters, the sizes of its canvases, smallest first, each as
+            the side of a square of equal area; the predictions on all of them are averaged.
+        roundness: factor of the slope correction; see ``predict``.
+        training: how the network was trained, for people.
+        measured: results of its evaluation, for people.
     """
 
     architecture: str = "figure-net"
@@ -44,7 +44,7 @@ class NetworkCard:
 
 
 def shipped_weights(architecture: str = "figure-net") -> Path:
-    """The weights that come with Lampblack."""
+    """Path of the weights that are installed with Lampblack."""
     return Path(__file__).parent / "weights" / f"{architecture}.safetensors"
 
 
@@ -58,10 +58,10 @@ def save_network(path: Path, network: nn.Module, card: NetworkCard) -> None:
 
 
 def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
-    """Read weights and card, the shipped ones by default; float32, in evaluation mode.
+    """Read weights and card, by default the shipped ones; float32, in evaluation mode.
 
     Raises:
-        LampblackError: a file is missing, is not what it says, or does not fit the network.
+        LampblackError: a file is missing or malformed, or does not fit the network.
     """
     from .networks import ARCHITECTURES, build_network
 

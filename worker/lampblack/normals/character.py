@@ -1,4 +1,4 @@
-"""A whole figure laid on a canvas of fixed area, as the figure network sees it."""
+"""The input of the character network: a whole character placed on a canvas of fixed area."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FINE_CHANNELS = 2
 COARSE_CHANNELS = 10
 LUMO = slice(0, 3)
 SIDEWAYS = (0, 4, 8)
-"""Coarse channels that change sign when the figure is mirrored."""
+"""Coarse channels that change sign when the character is mirrored."""
 
 MARGIN = 8
 _STEP = 32
@@ -29,21 +29,21 @@ Plane = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Canvas:
-    """Where a figure's box lies: ``shape`` of the canvas and ``size`` of the box in its middle,
-    pixels (rows, columns); both even, so that a mirrored figure is the mirror image."""
+    """A canvas of ``shape`` with the character's box of ``size`` in its middle, both (rows,
+    columns) in pixels and even, so that a mirrored character gives the mirror image."""
 
     shape: tuple[int, int]
     size: tuple[int, int]
 
     @property
     def inner(self) -> tuple[slice, slice]:
-        """The box's place on the canvas."""
+        """The box's rows and columns on the canvas."""
         rows, columns = ((n - m) // 2 for n, m in zip(self.shape, self.size, strict=True))
         return slice(rows, rows + self.size[0]), slice(columns, columns + self.size[1])
 
 
 def canvases(side: int) -> list[tuple[int, int]]:
-    """Shapes of about ``side`` squared pixels: square, 3:2, 9:4, upright and lying."""
+    """Shapes of about ``side`` squared pixels: square, 3:2 and 9:4, portrait and landscape."""
     shapes = []
     for aspect in (1.0, 1.54, 2.3):
         long = round(side * aspect**0.5 / _STEP) * _STEP
@@ -53,7 +53,7 @@ def canvases(side: int) -> list[tuple[int, int]]:
 
 
 def canvas_for(shape: tuple[int, ...], side: int, zoom: float = 1.0) -> Canvas:
-    """The canvas on which a box of ``shape`` is largest; ``zoom`` below 1 leaves it smaller."""
+    """The canvas that a box of ``shape`` fills best; ``zoom`` below 1 makes the box smaller."""
 
     def scale(canvas: tuple[int, int]) -> float:
         return min((n - 2 * MARGIN) / m for n, m in zip(canvas, shape, strict=True))
@@ -65,8 +65,8 @@ def canvas_for(shape: tuple[int, ...], side: int, zoom: float = 1.0) -> Canvas:
 
 
 def lay(image: Plane, canvas: Canvas) -> Plane:
-    """(H, W, C) box -> (canvas rows, canvas columns, C), zero around it. Averages when smaller,
-    bilinear when larger."""
+    """(H, W, C) box -> (canvas rows, canvas columns, C), zero around it. Averages when it
+    shrinks, interpolates when it enlarges."""
     laid = np.zeros((*canvas.shape, image.shape[2]), np.float32)
     laid[canvas.inner] = resize(image, canvas.size)
     return laid
@@ -84,15 +84,16 @@ def resize(image: Plane, size: tuple[int, ...]) -> Plane:
 
 
 def extend_outside(vectors: Plane, mask: NDArray[np.bool_]) -> Plane:
-    """Continue the nearest vector past the border, so that resizing mixes in no zeros."""
+    """Fill pixels outside the mask with the nearest vector inside, so that resizing mixes in
+    no zeros."""
     nearest = ndimage.distance_transform_edt(~mask, return_distances=False, return_indices=True)
     result: Plane = vectors[tuple(nearest)]
     return result
 
 
 def shape_maps(mask: NDArray[np.bool_]) -> Plane:
-    """(8, h, w) float32 coarse maps that follow from the (H, W) canvas mask alone: Lumo's normal,
-    the root of the distance to the silhouette, its gradient, and the place in the figure."""
+    """(8, h, w) float32 coarse maps of the (H, W) canvas mask: Lumo's normal, the square root
+    of the distance to the silhouette, its gradient, and the position in the character."""
     rows, columns = (n // COARSE for n in mask.shape)
     share = mask.reshape(rows, COARSE, columns, COARSE).mean(axis=(1, 3), dtype=np.float32)
     small = share > 0.5
@@ -109,7 +110,7 @@ def shape_maps(mask: NDArray[np.bool_]) -> Plane:
 
 
 def ink_maps(ink: Plane) -> Plane:
-    """(2, h, w) float32: nearness to the ink of the (H, W) canvas, sharp and wide."""
+    """(2, h, w) float32: proximity to the ink of the (H, W) canvas, narrow and wide."""
     rows, columns = (n // COARSE for n in ink.shape)
     most = ink.reshape(rows, COARSE, columns, COARSE).max(axis=(1, 3))
     drawn = most > 0.25
@@ -119,5 +120,5 @@ def ink_maps(ink: Plane) -> Plane:
 
 
 def coarse_maps(shape: Plane, ink: Plane) -> Plane:
-    """(10, h, w): ``shape_maps`` with ``ink_maps`` between the gradient and the place."""
+    """(10, h, w): ``shape_maps`` with ``ink_maps`` between the gradient and the position."""
     return np.concatenate([shape[:6], ink_maps(ink), shape[6:]])

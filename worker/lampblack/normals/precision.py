@@ -1,4 +1,4 @@
-"""The number format in which networks calculate: bf16 where the processor has it, else float32."""
+"""The number format of inference and training: bf16 where the processor has it, else float32."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import torch
 
 @cache
 def has_bf16() -> bool:
-    """Whether the processor multiplies bf16. Where it must be emulated, as with AVX2 alone, it is
-    3 to 6 times slower than float32 in prediction and 11 to 14 times in training."""
+    """Whether the processor multiplies bf16. Emulated bf16 (AVX2 only) is 3 to 6 times slower than
+    float32 in prediction, and 11 to 14 times in training."""
     can = torch.cpu.get_capabilities()
     return bool(can.get("avx512_bf16") or can.get("amx_bf16"))
 
 
 def fast_arithmetic() -> torch.autocast:
-    """A context in which convolutions and products calculate in the faster format."""
+    """A context in which convolutions and matrix products use the faster format."""
     return torch.autocast("cpu", torch.bfloat16, enabled=has_bf16())

@@ -1,4 +1,4 @@
-"""A whole normal map from a drawing."""
+"""Normal maps predicted from drawings."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _TILE_GRIDS = 5
 class NormalPredictor:
     """A trained network, ready to predict. Loads the shipped weights by default.
 
-    ``identity`` names the weights, so that results can be kept for as long as they hold.
+    ``identity`` is a digest of the weights: a key for caches of the results.
 
     Args:
-        network, card: another network than the shipped one.
+        network, card: a network to use instead of the shipped one.
 
     Raises:
         LampblackError: the weights cannot be used (see ``load_network``).
@@ -57,10 +57,10 @@ class NormalPredictor:
         Args:
             lines: (H, W) float32 ink in 0..1.
             mask: (H, W) bool.
-            grids: 0 for the whole figure at once; 1 to 64 for the paper's network instead, on
-                so many diagonally shifted grids of tiles. A network of tiles takes 5 for 0.
-            quick: see a whole figure on the smallest of its canvases alone.
-            progress: told the share done, 0 to 1.
+            grids: 0 predicts the whole character at once. 1 to 64 uses the paper's network on
+                that many diagonally shifted grids of tiles. A network of tiles uses 5 for 0.
+            quick: predict a whole character on the smallest canvas only.
+            progress: called with the share done, 0 to 1.
 
         Returns:
             (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
@@ -78,7 +78,7 @@ class NormalPredictor:
         normals = np.zeros((*mask.shape, 3), np.float32)
         if not mask.any():
             return normals
-        # Everything is measured from the figure's own box, so that a figure that moves across
+        # Everything is relative to the character's box, so that a character that moves across
         # the canvas keeps its normals to the last bit.
         box = _bounding_box(mask)
         character_lines, character_mask, inner = _past_the_canvas(
@@ -109,11 +109,11 @@ class NormalPredictor:
 
 
 def _correct_slopes(vectors: NDArray[np.float32], roundness: float) -> NDArray[np.float32]:
-    """Unit normals from the network's means, (H, W, 3), without their flatness.
+    """Slope correction: unit normals from the network's means, (H, W, 3).
 
-    A mean of the normals that a pixel might have leans to the viewer: what points sideways
-    cancels out, what points forwards does not. Steepening every slope by one factor undoes
-    the lean on the whole, and makes no crease where there was none.
+    A mean over the normals that a pixel may have leans towards the viewer, because sideways
+    components cancel out. Multiplying every slope by one factor corrects this on average,
+    and adds no creases.
     """
     steeper = np.maximum(vectors, [-1, -1, 1e-3]) / [1, 1, roundness]
     rounded = steeper / np.linalg.norm(steeper, axis=2, keepdims=True)
@@ -132,10 +132,10 @@ def _past_the_canvas(
     box: tuple[slice, slice],
     canvas: tuple[int, ...],
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_], tuple[slice, slice]]:
-    """Carry a figure on where the canvas cuts it off: there it does not end, so it must not
-    be rounded off. An outline that merely touches the canvas's edge ends there.
+    """Extend a character where the canvas cuts it off, so that it is not rounded there. An
+    outline that only touches the canvas's edge ends there.
 
-    Returns lines, mask and the place of the original in them.
+    Returns lines, mask, and the rows and columns of the original in them.
     """
     reach = max(mask.shape) // 6
     pads = [

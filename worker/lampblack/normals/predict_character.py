@@ -1,4 +1,4 @@
-"""Normals of a whole figure at once, by the figure network."""
+"""Normals of a whole character at once, by the character network."""
 
 from __future__ import annotations
 
@@ -28,9 +28,11 @@ def mean_vectors(
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """The mean of what the network says of a figure on canvases of several ``sides``, the
-    largest last: on small ones it sees the whole, on large ones the parts, and it errs
-    differently on each. As ``character_vectors``, at the largest size."""
+    """The mean prediction over canvases of several ``sides``, the largest last.
+
+    On a small canvas the network sees the whole, on a large one the parts, and its errors
+    differ. Arguments and result as in ``character_vectors``, at the largest size.
+    """
     *smaller, largest = sides
     vectors, seen = character_vectors(network, largest, lines, mask)
     for side in smaller:
@@ -47,14 +49,14 @@ def character_vectors(
     *,
     mirrored: bool = True,
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """What the network says of a figure, at its canvas's resolution.
+    """The prediction for one character, at the resolution of its canvas.
 
     Args:
         network: a ``CharacterNet`` in evaluation mode.
-        side: of the square whose area the canvas has, pixels.
-        lines: (H, W) float32 ink in 0..1. mask: (H, W) bool. Both cropped to the figure.
-        mirrored: average with the mirror image, so that a mirrored figure is answered by
-            mirrored normals, exactly; at twice the price.
+        side: size of the canvas, as the side in pixels of a square of equal area.
+        lines: (H, W) float32 ink in 0..1. mask: (H, W) bool. Both cropped to the character.
+        mirrored: average with the prediction for the mirror image, so that a mirrored
+            character gets exactly mirrored normals; this doubles the cost.
 
     Returns:
         (h, w, 3) float32, roughly unit, and the (h, w) bool mask at that size.
@@ -83,7 +85,7 @@ def character_vectors(
 def character_input(
     lines: NDArray[np.float32], mask: NDArray[np.bool_], canvas: Canvas
 ) -> tuple[torch.Tensor, torch.Tensor, NDArray[np.bool_]]:
-    """The (1, 2, h, w) and (1, 10, h/4, w/4) tensors of a figure, and its mask on the canvas."""
+    """The fine (1, 2, h, w) and coarse (1, 10, h/4, w/4) input tensors, and the (h, w) mask."""
     laid = lay(np.stack([lines * mask, mask], axis=2).astype(np.float32), canvas)
     share = laid[..., 1]
     small = share > 0.5

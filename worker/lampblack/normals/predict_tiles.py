@@ -24,11 +24,12 @@ def tile_vectors(
     grids: int,
     progress: Callable[[float], None] = lambda share: None,
 ) -> NDArray[np.float32]:
-    """The mean over ``grids`` diagonally shifted grids of what a network says of each tile.
+    """The mean prediction over ``grids`` diagonally shifted grids of tiles.
 
     Args:
-        network: of tiles, in evaluation mode. lines: (H, W) float32 ink. mask: (H, W) bool.
-        grids: 1 to 64. progress: told the share done.
+        network: a network of tiles in evaluation mode. lines: (H, W) float32 ink. mask: (H, W)
+            bool.
+        grids: 1 to 64. progress: called with the share done, 0 to 1.
 
     Returns:
         (H, W, 3) float32, not yet unit.
@@ -41,7 +42,7 @@ def tile_vectors(
         for row, column in grid
         if mask[max(row, 0) : row + TILE, max(column, 0) : column + TILE].any()
     ]
-    # Tiles know their middle best: each counts less towards its border.
+    # A prediction is best in the middle of its tile, so its weight falls towards the border.
     ramp = np.minimum(np.arange(TILE) + 0.5, TILE - np.arange(TILE) - 0.5) / (TILE / 2)
     window = (np.outer(ramp, ramp) + 1e-3).astype(np.float32)[..., None]
     summed = np.zeros((height + 2 * TILE, width + 2 * TILE, 3), np.float32)

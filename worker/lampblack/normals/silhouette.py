@@ -1,4 +1,4 @@
-"""Peers that know the silhouette alone: what a network must beat.
+"""Baselines that use the silhouette alone.
 
 Lumo (Johnston 2002) interpolates the normals of the outline; Poisson inflation (the family of
 Ink-and-Ray and Monster Mash) solves for a height whose square obeys a Poisson equation.
@@ -16,8 +16,8 @@ _SOLVE_PX = 320
 
 
 def lumo_normals(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Normals of the outline lie in the picture plane and point outwards; inside they are
-    interpolated (Laplace) and completed to unit length (Johnston 2002).
+    """Lumo (Johnston 2002): normals of the outline lie in the picture plane and point outwards;
+    inside, x and y are interpolated (Laplace) and z completes them to unit length.
 
     Args:
         mask: (H, W) bool.
@@ -35,7 +35,8 @@ def interpolated_outline(
     """Lumo's normals on a coarse grid: (h, w, 3) float32, 0 outside.
 
     Args:
-        share: (h, w) of each cell that is figure. small: (h, w) bool, cells counted as figure.
+        share: (h, w) share of each cell that the character covers.
+        small: (h, w) bool, cells that count as character.
     """
     plane = _from_outline(np.pad(share, 1), np.pad(small, 1))[1:-1, 1:-1]
     plane /= np.maximum(np.linalg.norm(plane, axis=2, keepdims=True), 1.0)
@@ -116,7 +117,7 @@ def _solve_poisson(
 def _complete(
     plane: NDArray[np.float64], small: NDArray[np.bool_], mask: NDArray[np.bool_]
 ) -> NDArray[np.float32]:
-    """Bring x and y to the size of ``mask`` and let z make them unit."""
+    """Resize x and y to the size of ``mask``, and add the z that makes them unit vectors."""
     nearest = ndimage.distance_transform_edt(~small, return_distances=False, return_indices=True)
     filled = plane[tuple(nearest)][1:-1, 1:-1]
     planes = torch.from_numpy(filled.transpose(2, 0, 1).copy())[None]

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 TILE = 256
 SCALES = (1, 2, 4)
 OUTSIDE = -1.0
-"""Value of the drawing channels off the figure, so that the wide ones show its silhouette."""
+"""Value of the drawing channels outside the character: the wide ones show its silhouette."""
 ALIGNMENT = max(SCALES)
 
 
 class TileSource:
-    """Cuts tiles from one figure.
+    """Cuts tiles from one character.
 
     Args:
         lines: (H, W) float32 ink in 0..1. mask: (H, W) bool.
@@ -29,7 +29,7 @@ class TileSource:
     def cut(self, row: int, column: int) -> NDArray[np.float32]:
         """The (4, 256, 256) tile whose top left pixel is (``row``, ``column``).
 
-        Both are multiples of ``ALIGNMENT`` and may lie outside the figure.
+        Both are multiples of ``ALIGNMENT`` and may lie outside the character.
         """
         channels = []
         for scale, level in zip(SCALES, self._pyramid, strict=True):
@@ -42,7 +42,7 @@ class TileSource:
 
 
 def _window(image: NDArray[np.float32], row: int, column: int, fill: float) -> NDArray[np.float32]:
-    """A tile-sized piece of ``image``, which may reach past its border."""
+    """A tile of ``image``, filled with ``fill`` past its border."""
     piece = np.full((TILE, TILE), fill, np.float32)
     top, left = max(row, 0), max(column, 0)
     bottom, right = min(row + TILE, image.shape[0]), min(column + TILE, image.shape[1])
@@ -60,11 +60,11 @@ def _shrink(image: NDArray[np.float32], scale: int) -> NDArray[np.float32]:
 
 
 def diagonal_grids(height: int, width: int, grids: int) -> list[list[tuple[int, int]]]:
-    """Top left corners of the tiles of each grid that covers a ``height`` x ``width`` figure.
+    """Top left corners of the tiles of each grid that covers a ``height`` x ``width`` character.
 
-    Each grid is the first one shifted diagonally by another offset (paper, figure 5e), so that
-    the seams of one fall inside the tiles of the others. Offsets count from the figure's own
-    corner: a figure that moves across the canvas carries its grids along.
+    Each grid is the first one, shifted diagonally by another offset (paper, figure 5e), so that
+    the seams of one grid lie inside the tiles of the others. Offsets count from the character's
+    corner, so the grids move with it across the canvas.
     """
     corners = []
     for index in range(grids):

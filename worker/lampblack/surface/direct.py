@@ -1,9 +1,9 @@
 """The exact minimiser of the inflation energy on the compact stencil.
 
-Setting the derivative of ``energy_compact`` to zero gives one Poisson-like system per figure,
+Setting the derivative of ``energy_compact`` to zero gives one Poisson-like system per character,
 ``L z = b``: L the Laplacian of the pixel graph with weights nz^2, b the divergence of the
 slopes that the normals ask for. Conjugate gradient with a multigrid cycle as preconditioner
-solves it in a dozen iterations, whatever the size of the figure.
+solves it in a dozen iterations, whatever the size of the character.
 
 On normals with strong noise in every pixel, eq. 6 has lower minima than this one: surfaces
 with ripples that its wide kernels cannot see, bent to fit the noise. They are further from
@@ -19,7 +19,7 @@ from ..compiled import compiled
 from .multigrid import Graph, Multigrid, apply_laplacian
 
 TOLERANCE = 1e-3
-"""Of the residual, against that of a flat figure: about 0.02 pixels at a height of 300."""
+"""Of the residual, against that of a flat character: about 0.02 pixels at a height of 300."""
 MAX_ITERATIONS = 60
 
 
@@ -28,7 +28,7 @@ def inflate_direct(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDA
 
     Args:
         normals: (H, W, 3), as ``usable_normals`` gives them: nz well above 0.
-        mask: (H, W), True inside the figure.
+        mask: (H, W), True inside the character.
 
     Returns:
         (H, W) float32 pixels, 0 outside, every connected part up to a constant of its own.

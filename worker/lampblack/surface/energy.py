@@ -11,7 +11,7 @@ reached at a z proportional to 1 / gamma. ``nz^2`` weighs each slope, so that a 
 slopes are steep and uncertain, counts for little.
 
 The two discretisations differ in how a slope is read off the heights. Both look only at
-pixels of the mask: a difference across its border would compare the figure with nothing.
+pixels of the mask: a difference across its border would compare the character with nothing.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def energy_paper(
     Args:
         height: (H, W) pixels towards the viewer.
         normals: (H, W, 3) unit, x right, y up, z to the viewer.
-        mask: (H, W), True inside the figure.
+        mask: (H, W), True inside the character.
         gamma: the inflation scale of eq. 4.
     """
     z = height.astype(np.float64)

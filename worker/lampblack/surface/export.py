@@ -16,7 +16,7 @@ SUFFIXES = (".glb", ".obj", ".ply")
 
 def save_mesh(relief: Relief, path: Path | str) -> None:
     """Write the mesh in canvas pixels, right-handed: x right, y *up* from the canvas's top
-    edge (so the figure lies at negative y), z towards the viewer.
+    edge (so the character lies at negative y), z towards the viewer.
 
     Raises:
         LampblackError: an unknown suffix, a mesh that is not sound, or a failed write.

@@ -30,7 +30,7 @@ def guided_filter(
 
     Args:
         height: (H, W) float32, pixels towards the viewer.
-        mask: (H, W) bool, True inside the figure.
+        mask: (H, W) bool, True inside the character.
         radius: of the square window, in pixels.
         detail: pixels of height; the filter's regularisation is its square.
         subsample: the local models are fitted on every such pixel.

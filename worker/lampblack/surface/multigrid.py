@@ -1,6 +1,6 @@
 """Aggregation multigrid for the Laplacian of a weighted graph of pixels.
 
-The graph of a figure has ragged borders, holes and, along creases and rims, lines of nearly
+The graph of a character has ragged borders, holes and, along creases and rims, lines of nearly
 cut links, on which plain geometric coarsening stalls. So pixels are paired along their
 strongest links, twice a level, and a coarse link is the sum of the links it stands for
 (Galerkin with piecewise constants). A K-cycle, two steps of conjugate gradient on every

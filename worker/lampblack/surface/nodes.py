@@ -40,7 +40,7 @@ class Nodes:
 def place_nodes(height: NDArray[np.float32], mask: NDArray[np.bool_], stride: int) -> Nodes:
     """Put a node on the pixel of the mask nearest the middle of every block.
 
-    So no part of the figure is missed, however thin. Rims towards an empty block lie on the
+    So no part of the character is missed, however thin. Rims towards an empty block lie on the
     outer edge of the last pixel of the mask that way, their height carried on along the
     slope; rims at a step lie half way to the other node.
     """

@@ -1,4 +1,4 @@
-"""The relief mesh: the figure's front surface, skirted and closed at the back."""
+"""The relief mesh: the character's front surface, skirted and closed at the back."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def build_relief(
 
     Args:
         height: (H, W) float32, pixels towards the viewer.
-        mask: (H, W) bool, True inside the figure.
+        mask: (H, W) bool, True inside the character.
         stride: pixels between vertices.
         relief_scale: multiplies the height (1 / gamma in the paper's eq. 4).
 

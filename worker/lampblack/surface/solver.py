@@ -37,7 +37,7 @@ def solve(
 
     Args:
         normals: (H, W, 3), x right, y up, z to the viewer; made usable first.
-        mask: (H, W) bool, True inside the figure.
+        mask: (H, W) bool, True inside the character.
         solver: "direct", the exact minimum on a compact stencil, or "adam", the paper's 500
             steps of gradient descent.
 
@@ -96,7 +96,7 @@ def usable_normals(normals: ArrayLike, mask: NDArray[np.bool_]) -> NDArray[np.fl
 def rest_on_border(height: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
     """Shift every connected part so that its border lies at height 0 on average.
 
-    Where the canvas cuts the figure off is no border of the figure: such pixels count only
+    Where the canvas cuts the character off is no border of the character: such pixels count only
     in a part that has no others.
     """
     parts, count = ndimage.label(mask)

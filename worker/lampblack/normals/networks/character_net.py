@@ -1,10 +1,10 @@
-"""Our network: the whole figure at once, a correction to the normals of its silhouette.
+"""Lampblack's network: predicts the normals of a whole character as a correction to Lumo's.
 
-A residual U-Net whose first level is a quarter of the canvas (pixels are folded into channels)
-and whose deepest is a thirty-second, where attention lets every part see every other. It adds
-to Lumo's normals, so that it begins where the best peer ends. Beside the normals it learns how
-sure it is of them (angular von Mises-Fisher, Bae 2021), depth, and occlusion edges with their
-side in front.
+A residual U-Net. Its first level has a quarter of the canvas's resolution (pixels are folded
+into channels). Its deepest has a thirty-second, with attention between all cells. The output
+is added to Lumo's normals, so an untrained network equals that baseline. Training also predicts
+the confidence of the normals (angular von Mises-Fisher, Bae 2021), depth, and occlusion edges
+with the side that is in front.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ HEADS = 4
 
 
 class Residual(nn.Module):
-    """Two convolutions beside a shortcut."""
+    """Two convolutions with a residual connection."""
 
     def __init__(self, width: int, dilation: int = 1) -> None:
         super().__init__()
@@ -73,7 +73,7 @@ def _convolution(before: int, after: int, kernel: int = 3, stride: int = 1) -> n
 
 
 class CharacterNet(nn.Module):
-    """See the module; ``forward`` maps ``figure.FigureInput`` tensors to ``Prediction``s."""
+    """See the module docstring. Named ``figure-net`` in cards and on the command line."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -107,11 +107,11 @@ class CharacterNet(nn.Module):
 
     def forward(self, fine: Tensor, coarse: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Args:
-            fine: (B, 2, H, W), coarse: (B, 10, H/4, W/4); see ``figure.py``.
+            fine: (B, 2, H, W), coarse: (B, 10, H/4, W/4); see ``character.py``.
 
         Returns:
-            (B, 3, H, W) normals, not yet unit; (B, 1, H, W) concentration, its logarithm;
-            (B, 3, H/4, W/4) depth and the logits of the near and far side of an occlusion.
+            (B, 3, H, W) normals, not yet unit; (B, 1, H, W) logarithm of their concentration;
+            (B, 3, H/4, W/4) depth, and the logits of the near and far side of an occlusion.
         """
         folded = nn.functional.pixel_unshuffle(fine, COARSE)
         first = self.stem(torch.cat([folded, coarse], dim=1))
@@ -129,7 +129,7 @@ class CharacterNet(nn.Module):
             with torch.autocast("cpu", enabled=False):
                 head = self.normals(first.float())
         raw = nn.functional.pixel_shuffle(head, COARSE)
-        # In double precision, for in single the last bit depends on the number of threads.
+        # Double precision: in single, the last bit depends on the number of threads.
         lumo = nn.functional.interpolate(
             coarse[:, LUMO].double(), scale_factor=COARSE, mode="bilinear", align_corners=False
         )

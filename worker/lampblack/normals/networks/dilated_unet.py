@@ -1,8 +1,8 @@
 """The network of section 3.1: a U-Net whose five last encoder layers are dilated.
 
-Figure 4 of the paper is not spelled out in its text; what the text fixes (256 x 256 x 4 in,
-five dilated layers instead of strides, LeakyReLU of slope 0.3, tanh, output times mask) is
-kept, and the widths are chosen for a processor without a GPU.
+The paper's text does not give all of its figure 4. What it gives is kept: input 256 x 256 x 4,
+five dilated layers instead of strides, LeakyReLU of slope 0.3, tanh, output times mask. The
+widths are chosen for a processor without a GPU.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The predecessor (Hudon 2018): a U-Net of seven strided convolutions on three scales of ink.
+"""The network of Hudon 2018: a U-Net of seven strided convolutions on three scales of ink.
 
-It differs from the paper's by its strides instead of dilations and by seeing no mask. The widths
-are ours, chosen so that it has about the 4.7 million parameters of the original.
+Unlike the paper's network it has strides instead of dilations, and no mask as input. The widths
+are chosen so that it has about the 4.7 million parameters of the original.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ WIDTHS = (32, 64, 96, 160, 192, 224, 224)
 
 
 class StridedUNet(nn.Module):
-    """The tiles of ``tiles.py`` in, without their mask; a normal map out."""
+    """Tiles of ``tiles.py`` without their mask in, a normal map out."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -1,1 +1,1 @@
-"""Normals that hold still from drawing to drawing."""
+"""Normals filtered over time: the same from drawing to drawing where the drawing is the same."""

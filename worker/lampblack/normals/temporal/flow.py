@@ -18,9 +18,9 @@ Planes = NDArray[np.float32]
 
 _SMOOTHNESS = np.float32(0.15)
 _FAINT = np.float32(0.05)
-"""Difference of features below which it counts squared, above which it counts as it is."""
+"""Difference of features up to which the penalty is quadratic; beyond it is linear."""
 _BEND = np.float32(0.1)
-"""The same for the flow's slope, cells per cell."""
+"""The same for the gradient of the flow, cells per cell."""
 _COARSEST_PX = 20
 _WARPS = 3
 _SWEEPS = 20
@@ -29,13 +29,13 @@ _LONGEST_STEP = 2.0
 
 
 def dense_flow(fixed: Planes, moving: Planes) -> Planes:
-    """How far what is seen in ``fixed`` has gone in ``moving``.
+    """The displacement of each cell of ``fixed`` in ``moving``.
 
     Args:
         fixed, moving: (C, h, w) float32 feature planes, about 0 to 1, h and w at least 2.
 
     Returns:
-        (2, h, w) float32 rows, columns: what is at p in ``fixed`` is at p + flow in ``moving``.
+        (2, h, w) float32 rows, columns: point p of ``fixed`` is at p + flow in ``moving``.
     """
     if min(fixed.shape[1:]) <= _COARSEST_PX:
         flow = np.zeros((2, *fixed.shape[1:]), np.float32)
@@ -52,8 +52,8 @@ def dense_flow(fixed: Planes, moving: Planes) -> Planes:
 
 @compiled
 def _change(fixed: Planes, there: Planes, flow: Planes, sweeps: int) -> Planes:
-    """The (2, h, w) change of ``flow`` after which ``there``, what it brings, is nearer to
-    ``fixed``: linearised, then relaxed in a chequered order."""
+    """The (2, h, w) change of ``flow`` that brings ``there``, ``moving`` warped by it, nearer to
+    ``fixed``: linearised, then solved by red-black over-relaxation."""
     channels, rows, columns = fixed.shape
     system = np.zeros((rows, columns, 5), np.float32)
     stiffness = np.empty((rows, columns), np.float32)

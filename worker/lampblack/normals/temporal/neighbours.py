@@ -1,4 +1,4 @@
-"""Which drawings of a shot precede and follow each."""
+"""The neighbours of each drawing in a shot: those before and after it."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ from collections.abc import Sequence
 from itertools import groupby
 
 NeighbourKeys = tuple[tuple[str, ...], tuple[str, ...]]
-"""Before and after, nearest first."""
+"""Names of the drawings before and after, each nearest first."""
 
 
 def neighbour_keys(shown: Sequence[str], reach: int) -> dict[str, NeighbourKeys]:
-    """What is around each drawing, from the names of what the frames show, in order.
+    """The neighbours of each drawing, from the drawings that the frames show, in order.
 
-    A drawing that is held counts once. One that comes back has one past and one future, since
-    it is lit once: those of the first time that it has them whole (so a cycle has no seam).
+    A drawing that is held over several frames counts once. A drawing that appears again has one
+    set of neighbours, since it is lit once: those of the first appearance with a full set, so
+    that a cycle has no seam.
     """
     runs = [name for name, _ in groupby(shown)]
     around: dict[str, NeighbourKeys] = {}

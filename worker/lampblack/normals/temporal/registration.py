@@ -1,4 +1,4 @@
-"""Where each place of one drawing lies in another, and how far that can be trusted."""
+"""Registration: where each point of one drawing lies in another, and how reliable that is."""
 
 from __future__ import annotations
 
@@ -15,43 +15,43 @@ from .thumbnail import RegistrationThumbnail
 from .window import Planes
 
 _MISMATCH = 0.18
-"""Difference of features at which a place is trusted by 1/e."""
+"""Difference of features at which trust falls to 1/e."""
 _ASTRAY = 2.0
-"""Coarse cells by which there and back may miss, likewise."""
+"""Coarse cells between a point and itself mapped there and back, at which trust falls to 1/e."""
 _BLUR = 1.5
 _CUT = 0.2, 0.4
-"""Mean trust over the figure below which the drawings have nothing in common, so that what
-matches does so by chance; and above which they are of one shot."""
+"""Mean trust over the character: below the first, the drawings have nothing in common and matches
+are chance; above the second, they belong to one shot."""
 
 
 @dataclass(frozen=True)
 class Registration:
-    """One here seen from another's coarse grid (h, w).
+    """Where one drawing's coarse grid (h, w) lies in another drawing.
 
     Attributes:
-        places: (2, h, w) float32, rows and columns of the other's coarse grid.
-        trust: (h, w) float32 in 0..1; falls where the drawings differ, so that what truly
-            changes is not mixed.
+        places: (2, h, w) float32, rows and columns on the other's coarse grid.
+        trust: (h, w) float32 in 0..1; falls where the drawings differ, so that real changes are
+            not averaged away.
     """
 
     places: Planes
     trust: NDArray[np.float32]
 
     def then(self, further: Registration) -> Registration:
-        """What lies behind the other here, as ``further`` sees it from there."""
+        """This registration followed by ``further``, from the other drawing to a third."""
         planes = np.concatenate([further.places, further.trust[None]])
         seen = sampled(planes, self.places)
         return Registration(seen[:2], self.trust * seen[2])
 
     def fine(self) -> Registration:
-        """The same on the fine grids of both."""
+        """The same registration on the fine grids of both drawings."""
         rows, columns = self.trust.shape
         at = (np.indices((2 * rows, 2 * columns), np.float32) - 0.5) / 2
         seen = sampled(np.concatenate([self.places, self.trust[None]]), at)
         return Registration(2 * seen[:2] + 0.5, seen[2])
 
     def turn(self) -> NDArray[np.float32]:
-        """(h, w) float32 angle in radians by which the drawing turns locally, anticlockwise."""
+        """(h, w) float32 local rotation in radians, anticlockwise."""
         smooth = ndimage.gaussian_filter(self.places, (0, 2, 2), mode="nearest")
         (down_down, down_right), (right_down, right_right) = (np.gradient(p) for p in smooth)
         angle: NDArray[np.float32] = np.arctan2(right_down - down_right, down_down + right_right)
@@ -61,7 +61,7 @@ class Registration:
 def registration(
     here: RegistrationThumbnail, other: RegistrationThumbnail, there: Planes, back: Planes
 ) -> Registration:
-    """``other`` seen from ``here``, from ``there = places_in(here, other)`` and
+    """Registration of ``here`` with ``other``, from ``there = places_in(here, other)`` and
     ``back = places_in(other, here)``."""
     at = np.indices(here.window.coarse, np.float32)
     mismatch = ((sampled(other.features, there) - here.features) ** 2).sum(axis=0)
@@ -75,23 +75,23 @@ def registration(
 
 
 def places_in(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Planes:
-    """(2, h, w): where each coarse cell of ``here`` lies on the coarse grid of ``other``: the
-    rigid motion of the whole first, then each place's own."""
-    motion = rigid_motion(here.features, other.features, _standing(here, other))
+    """(2, h, w): where each coarse cell of ``here`` lies on the coarse grid of ``other``: a rigid
+    motion of the whole, then the dense flow."""
+    motion = rigid_motion(here.features, other.features, _start(here, other))
     at = np.indices(here.window.coarse, np.float32)
     flow = dense_flow(here.features, sampled(other.features, motion(at)))
     return motion(at + flow)
 
 
 def rigid_registration(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Registration:
-    """``other`` where the motion of the whole figure alone would place it, fully trusted."""
-    motion = rigid_motion(here.features, other.features, _standing(here, other), finest=0)
+    """Registration by the rigid motion of the whole character only, with full trust."""
+    motion = rigid_motion(here.features, other.features, _start(here, other), finest=0)
     places = motion(np.indices(here.window.coarse, np.float32))
     return Registration(places, np.ones(here.window.coarse, np.float32))
 
 
-def _standing(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Motion:
-    """The figures laid over each other by their centroids, in equal size on the canvas."""
+def _start(here: RegistrationThumbnail, other: RegistrationThumbnail) -> Motion:
+    """The first guess: centroids coincide, and both have the same size on the canvas."""
     scale = (other.window.coarse[0] / other.window.size[0]) / (
         here.window.coarse[0] / here.window.size[0]
     )

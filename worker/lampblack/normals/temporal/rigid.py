@@ -1,4 +1,4 @@
-"""The rigid motion of a whole figure from one drawing to another."""
+"""The rigid motion of a whole character from one drawing to another."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Point = tuple[float, float]
 _STEPS = 12
 _COARSEST_PX = 32
 _FINEST = 1
-"""Halvings of the grid at which the search ends: what is left is found densely."""
+"""Halvings of the grid at which the search ends: the dense flow finds the rest."""
 _SETTLED = 0.02
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Points turned by ``angle`` (radians, anticlockwise as seen) about ``source``, scaled, and
-    brought to where ``source`` lies at ``target``. Points are (row, column)."""
+    """A rotation by ``angle`` (radians, anticlockwise as seen) about ``source``, a scaling, and
+    a shift of ``source`` to ``target``. Points are (row, column)."""
 
     source: Point
     target: Point
@@ -31,7 +31,7 @@ class Motion:
     scale: float = 1.0
 
     def __call__(self, points: Planes) -> Planes:
-        """(2, ...) float32 points -> where they go."""
+        """(2, ...) float32 points -> the moved points."""
         y, x = points[0] - self.source[0], points[1] - self.source[1]
         cos, sin = self.scale * np.cos(self.angle), self.scale * np.sin(self.angle)
         moved = [cos * y - sin * x + self.target[0], sin * y + cos * x + self.target[1]]
@@ -40,9 +40,9 @@ class Motion:
 
 
 def rigid_motion(fixed: Planes, moving: Planes, start: Motion, finest: int = _FINEST) -> Motion:
-    """The motion from ``fixed``, (C, h, w), to where the same is in ``moving``, (C, h', w').
+    """The motion that maps ``fixed``, (C, h, w), onto ``moving``, (C, h', w').
 
-    Robust Gauss-Newton over the feature planes, from coarse to fine; ``start.scale`` is kept.
+    Robust Gauss-Newton over the feature planes, from coarse to fine. ``start.scale`` is kept.
     The search ends at the grid halved ``finest`` times.
     """
     motion = start
@@ -63,7 +63,7 @@ def rigid_motion(fixed: Planes, moving: Planes, start: Motion, finest: int = _FI
 def _improved(
     fixed: Planes, moving: Planes, points: Planes, motion: Motion, step: int
 ) -> tuple[Motion, float]:
-    """One step, and by how many cells it moves the figure's border at most."""
+    """One step, and the largest distance in cells by which it moves the character's border."""
     there = sampled(moving, motion(points))
     down, right = np.gradient(there, step, axis=(1, 2))
     y, x = points[0] - motion.source[0], points[1] - motion.source[1]
@@ -75,7 +75,7 @@ def _improved(
     turn, *shift = np.linalg.solve(
         normal + 1e-6 * np.eye(3), -flat @ difference.reshape(-1).astype(np.float64)
     )
-    # The slopes are along the fixed drawing's axes; the shift is along the moving one's.
+    # The gradients are along the fixed drawing's axes, the shift along the moving one's.
     cos, sin = motion.scale * np.cos(motion.angle), motion.scale * np.sin(motion.angle)
     target = (
         motion.target[0] + cos * shift[0] - sin * shift[1],

@@ -1,4 +1,4 @@
-"""Planes read between their cells."""
+"""Bilinear sampling of planes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ Planes = NDArray[np.float32]
 
 @compiled
 def sampled(planes: Planes, points: Planes) -> Planes:
-    """Bilinear values of (C, H, W) ``planes`` at (2, h, w) ``points``, rows and columns; held
-    beyond the border. Returns (C, h, w). All float32, H and W at least 2."""
+    """Bilinear values of (C, H, W) ``planes`` at (2, h, w) ``points``, rows and columns. Points
+    beyond the border take its value. Returns (C, h, w). All float32, H and W at least 2."""
     channels, rows, columns = planes.shape
     out = np.empty((channels, points.shape[1], points.shape[2]), np.float32)
     for r in range(points.shape[1]):

@@ -1,9 +1,9 @@
-"""Steady normals: each drawing's prediction averaged with its neighbours', laid onto it.
+"""The temporal filter: averages the predicted normals of neighbouring drawings.
 
-Where two drawings show the same thing, their predictions differ by the network's whim alone, and
-the mean of several is steadier than each. The mean looks equally far back and ahead, so that it
-does not lag; it takes nothing from where the drawings differ; and it is the same in whatever
-order frames are asked for.
+Where two drawings show the same thing, their predictions differ only by the network's error, and
+the mean of several flickers less than each. The neighbours are registered with the drawing
+first. The filter looks equally far back and ahead, so it does not lag. It takes nothing from
+places where the drawings differ. Its result does not depend on the order of the calls.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from .thumbnail import RegistrationThumbnail
 from .window import Planes
 
 REACH = 2
-"""Drawings that are looked at to either side."""
+"""Number of neighbours on either side."""
 _KEPT = 16
 
 
 @dataclass(frozen=True)
 class Neighbours:
-    """What precedes and follows a drawing, nearest first; ``REACH`` of each are looked at."""
+    """The drawings before and after one, each nearest first; at most ``REACH`` of each count."""
 
     before: tuple[RegistrationThumbnail, ...] = ()
     after: tuple[RegistrationThumbnail, ...] = ()
@@ -47,10 +47,10 @@ NO_NEIGHBOURS = Neighbours()
 
 
 class TemporalFilter:
-    """Steadies normals, drawing by drawing.
+    """Filters normals, drawing by drawing.
 
-    Keeps the last few registrations, since each serves several drawings. What it returns does
-    not depend on what it was asked before.
+    Caches the last few registrations, since each serves several drawings. The results do not
+    depend on the cache.
     """
 
     def __init__(self) -> None:
@@ -67,22 +67,22 @@ class TemporalFilter:
 
         Args:
             normals: (H, W, 3) float32, as predicted. mask: (H, W) bool.
-            here: of this drawing. neighbours: of its neighbours, which may be of other sizes.
+            here: the drawing's thumbnail. neighbours: may have canvases of other sizes.
 
         Returns:
             (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
-            Detail finer than the fine grid is the drawing's own.
+            Detail finer than the fine grid stays that of the drawing.
         """
         laid, place = here.window.lay(self.change(here, neighbours), mask.shape)
         inside = mask[place]
         moved = normals[place][inside] + laid[inside]
         moved[:, 2] = np.maximum(moved[:, 2], 1e-3)  # what is seen cannot face away
-        steadied = normals.copy()
-        steadied[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
-        return steadied
+        smooth = normals.copy()
+        smooth[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
+        return smooth
 
     def change(self, here: RegistrationThumbnail, neighbours: Neighbours) -> Planes:
-        """(3, h, w) float32: what brings ``here.vectors`` to the mean, on the fine grid."""
+        """(3, h, w) float32: the mean minus ``here.vectors``, on the fine grid."""
         summed = np.zeros_like(here.vectors)
         weights = np.ones(here.inside.shape, np.float32)
         for side in (neighbours.before[:REACH], neighbours.after[:REACH]):
@@ -99,13 +99,13 @@ class TemporalFilter:
     def smoothed(
         self, here: RegistrationThumbnail, neighbours: Neighbours
     ) -> RegistrationThumbnail:
-        """``here`` with its vectors brought to the mean."""
+        """``here`` with the mean as its vectors."""
         return replace(here, vectors=here.vectors + self.change(here, neighbours))
 
     def registration(
         self, here: RegistrationThumbnail, other: RegistrationThumbnail
     ) -> Registration:
-        """``other`` seen from ``here``."""
+        """The registration of ``here`` with ``other``."""
         return registration(here, other, self._between(here, other), self._between(other, here))
 
     def _between(self, here: RegistrationThumbnail, other: RegistrationThumbnail) -> Planes:
@@ -121,8 +121,8 @@ class TemporalFilter:
 def warped_normals(
     other: RegistrationThumbnail, seen: Registration
 ) -> tuple[Planes, NDArray[np.float32]]:
-    """The other's normals, brought to where ``seen`` sees them and turned back with the
-    drawing, (3, h, w) on the fine grid; and how far to trust them, (h, w)."""
+    """The other drawing's normals, warped by the registration ``seen`` and rotated back with it,
+    (3, h, w) on the fine grid; and their trust, (h, w)."""
     planes = sampled(np.concatenate([other.vectors, other.inside[None]]), seen.places)
     turn = seen.turn()
     cos, sin = np.cos(turn), np.sin(turn)

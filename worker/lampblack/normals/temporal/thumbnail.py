@@ -1,4 +1,4 @@
-"""A drawing and its predicted normals, made small: all that its neighbours need of it."""
+"""Registration thumbnails: a drawing and its predicted normals at low resolution."""
 
 from __future__ import annotations
 
@@ -11,20 +11,21 @@ from scipy import ndimage
 from .window import Planes, Window, window_around
 
 _REACH = 6.0
-"""Coarse cells over which the silhouette is felt."""
+"""Coarse cells up to which the distance to the silhouette counts."""
 
 
 @dataclass(frozen=True, eq=False)
 class RegistrationThumbnail:
-    """About 4 MB, whatever the size of the drawing.
+    """What the temporal filter needs of a drawing; about 4 MB for every size of drawing.
 
     Attributes:
-        name: of the content, such as a digest: miniatures of one name are the same.
-        window: around the figure.
-        features: (6, h, w) float32, coarse: what of the drawing can be recognised in the next.
-        centre: (row, column) of the figure's centroid, coarse cells.
-        vectors: (3, 2h, 2w) float32, fine: predicted normals, x right, y up, z to the viewer.
-        inside: (2h, 2w) float32, fine: share of the cell that the figure covers.
+        name: a digest of the content: thumbnails with the same name are equal.
+        window: the box around the character.
+        features: (6, h, w) float32, coarse grid: planes by which drawings are registered.
+        centre: (row, column) of the character's centroid, coarse cells.
+        vectors: (3, 2h, 2w) float32, fine grid: predicted normals, x right, y up, z to the
+            viewer.
+        inside: (2h, 2w) float32, fine grid: share of the cell that the character covers.
     """
 
     name: str
@@ -42,10 +43,10 @@ def make_thumbnail(
     albedo: NDArray[np.float32],
     normals: NDArray[np.float32],
 ) -> RegistrationThumbnail:
-    """Make a drawing small.
+    """Make the thumbnail of a drawing.
 
     Args:
-        name: of the content.
+        name: a digest of the content.
         lines: (H, W) float32 ink in 0..1. mask: (H, W) bool, not empty.
         albedo: (H, W, 3) float32 sRGB in 0..1.
         normals: (H, W, 3) float32, unit in the mask, 0 outside.
@@ -68,10 +69,10 @@ def make_thumbnail(
 
 
 def _features(inside: Planes, lines: Planes, colour: Planes) -> Planes:
-    """Nearness to the silhouette, ink, wide ink and colour; their ranges say how much each
-    weighs. Flat colour has no texture: the silhouette's distance and the wide ink lend it some."""
-    figure = inside > 0.5
-    signed = ndimage.distance_transform_edt(figure) - ndimage.distance_transform_edt(~figure)
+    """Distance to the silhouette, ink, blurred ink and colour; the range of each plane is its
+    weight. Flat colour has no texture: the distance and the blurred ink provide some."""
+    mask = inside > 0.5
+    signed = ndimage.distance_transform_edt(mask) - ndimage.distance_transform_edt(~mask)
     planes = [
         0.5 * np.tanh((signed - np.sign(signed) * 0.5) / _REACH),
         ndimage.gaussian_filter(lines, 0.7),

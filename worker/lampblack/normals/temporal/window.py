@@ -1,4 +1,4 @@
-"""The box around a figure, seen through a grid."""
+"""The box around a character, sampled by a coarse and a fine grid."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import torch
 from numpy.typing import NDArray
 
 FINE_PX = 512
-"""Longest side of the grid on which normals are compared; lines are, at half of it."""
+"""Longest side of the fine grid, for normals; the coarse grid, for lines, has half of it."""
 _MARGIN = 0.06
 
 Planes = NDArray[np.float32]
@@ -20,9 +20,9 @@ class Window:
     """A box of a canvas.
 
     Attributes:
-        top, left: canvas pixels; the box may reach past the canvas.
+        top, left: canvas pixels; the box may extend past the canvas.
         size: (rows, columns), canvas pixels.
-        coarse: (rows, columns) of the grid; the fine grid has twice as many.
+        coarse: (rows, columns) of the coarse grid; the fine grid has twice as many.
     """
 
     top: int
@@ -36,7 +36,7 @@ class Window:
         return 2 * self.coarse[0], 2 * self.coarse[1]
 
     def see(self, image: Planes, shape: tuple[int, int]) -> Planes:
-        """(H, W, C) canvas -> (C, *shape) grid, averaged; 0 beyond the canvas."""
+        """(H, W, C) canvas -> (C, *shape) grid, area-averaged; 0 beyond the canvas."""
         cut = np.zeros((*self.size, image.shape[2]), np.float32)
         on_canvas, in_box = self._overlap(image.shape)
         cut[in_box] = image[on_canvas]
@@ -50,8 +50,8 @@ class Window:
         return np.ascontiguousarray(seen[0].numpy())
 
     def lay(self, planes: Planes, shape: tuple[int, ...]) -> tuple[Planes, tuple[slice, slice]]:
-        """(C, rows, columns) grid -> (h, w, C), bilinear, and its place on a canvas of
-        ``shape``."""
+        """(C, rows, columns) grid -> (h, w, C) pixels, bilinear, and their rows and columns on
+        a canvas of ``shape``."""
         whole = torch.nn.functional.interpolate(
             torch.from_numpy(planes)[None], size=self.size, mode="bilinear", align_corners=False
         )
@@ -68,7 +68,7 @@ class Window:
 
 
 def window_around(mask: NDArray[np.bool_]) -> Window:
-    """The window of the figure in a (H, W) mask that is not empty, with a margin."""
+    """The window of the character in a (H, W) mask that is not empty, with a margin."""
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
     height, width = int(np.ptp(rows)) + 1, int(np.ptp(columns)) + 1
     margin = round(_MARGIN * max(height, width)) + 4
