@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all."""
+"""Atomic writing: a file appears whole or not at all."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from .errors import OutputError
 
 @contextmanager
 def atomic_file(path: Path) -> Iterator[BinaryIO]:
-    """Write to a temporary name beside ``path``; renamed when the block ends well, removed
-    when it does not.
+    """Write to a temporary name beside ``path``. It is renamed to ``path`` when the block
+    succeeds, and removed when it fails.
 
     Raises:
         OutputError: the folder is missing or not writable, or the disk is full.
@@ -25,8 +25,8 @@ def atomic_file(path: Path) -> Iterator[BinaryIO]:
 
 @contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:
-    """As ``atomic_file``, for libraries that want the temporary name itself."""
-    # Named before it is made, so that an interruption at any moment knows what to remove.
+    """Like ``atomic_file``, for libraries that need the temporary name."""
+    # Named before it is created, so that it is removed after an interruption at any moment.
     temporary = path.parent / f".{path.stem[:40]}.{secrets.token_hex(8)}.part{path.suffix}"
     try:
         temporary.open("xb").close()

@@ -1,4 +1,4 @@
-"""A bounded folder of arrays, named by the content they were made from."""
+"""A bounded folder of arrays, keyed by the digest of their inputs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MAX_BYTES = 2 << 30
 
 
 def digest(*parts: object) -> str:
-    """A name for what ``parts`` (arrays, bytes, anything with a stable repr) determine."""
+    """A digest of ``parts``: arrays, bytes, or anything with a stable repr."""
     state = hashlib.blake2b(digest_size=20)
     for part in parts:
         if isinstance(part, np.ndarray):
@@ -32,15 +32,15 @@ def digest(*parts: object) -> str:
 
 
 def user_cache_folder() -> Path:
-    """Where this user's caches belong (XDG base directories)."""
+    """The user's cache folder (XDG base directories)."""
     base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
     return Path(base) / "lampblack"
 
 
 class ArrayCache:
-    """Keeps arrays across runs; the least lately used go when the folder grows too large.
+    """Keeps arrays across runs. The least recently used are deleted when the folder is too large.
 
-    A cache that cannot be written or read only costs time, so its faults are not errors.
+    A cache that cannot be read or written only costs time, so that is no error.
     """
 
     def __init__(self, folder: Path, max_bytes: int = MAX_BYTES) -> None:
@@ -48,7 +48,7 @@ class ArrayCache:
         self._max_bytes = max_bytes
 
     def get(self, key: str, make: Callable[[], NDArray[np.float32]]) -> NDArray[np.float32]:
-        """The array of ``key``, made and kept if it is not there."""
+        """The array of ``key``. If it is missing, ``make`` computes it and it is stored."""
         path = self._folder / f"{key}.npz"
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:

@@ -1,4 +1,4 @@
-"""Cameras: from the canvas, where the scene lives, to the picture that a frame shows."""
+"""Cameras: from the canvas, where the scene is defined, to the picture of a frame."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Sample = TypeVar("Sample", np.uint8, np.float32)
 
 
 def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
-    """``scene`` in the pixels of a drawing of ``size`` (width, height), through its camera."""
+    """``scene`` in the pixels of a drawing of ``size`` (width, height), seen through ``camera``."""
     if camera == IDENTITY:
         return replace(scene, canvas=Canvas(*size))
     a, b, c, d, e, f = camera
@@ -48,7 +48,7 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
 
 
 def is_shift(camera: Affine) -> bool:
-    """Whether ``camera`` only moves pictures."""
+    """Whether ``camera`` only translates."""
     a, b, _, d, e, _ = camera
     return (a, b, d, e) == (1.0, 0.0, 0.0, 1.0)
 
@@ -56,20 +56,20 @@ def is_shift(camera: Affine) -> bool:
 def look_through(
     picture: NDArray[Sample], camera: Affine, size: tuple[int, int]
 ) -> NDArray[Sample]:
-    """What ``camera`` shows of a picture, at ``size`` (width, height); empty past its edges.
+    """A picture seen through ``camera``, at ``size`` (width, height); empty past its edges.
 
-    Bilinear, but a camera that only moves does so by whole pixels, as Pencil2D's does.
+    Bilinear. A camera that only translates moves by whole pixels, as Pencil2D's does.
 
     Args:
-        picture: (H, W, C), its colours premultiplied where it has alpha.
-        camera: the picture's pixels to those of the result.
+        picture: (H, W, C), with premultiplied alpha if it has alpha.
+        camera: from the picture's pixels to those of the result.
     """
     width, height = size
     if is_shift(camera):
         return _shifted(picture, math.floor(camera[2] + 0.5), math.floor(camera[5] + 0.5), size)
     a, b, c, d, e, f = camera
     back = np.linalg.inv(np.array([[e, d], [b, a]]))
-    # Centres of pixels lie at a half: rows and columns count from there.
+    # Pixel centres are at half coordinates, array indices at whole ones.
     start = back @ np.array([0.5 - f, 0.5 - c]) - 0.5
     seen = np.empty((height, width, picture.shape[2]), picture.dtype)
     for channel in range(picture.shape[2]):

@@ -1,4 +1,4 @@
-"""Loops over pixels, compiled."""
+"""Compilation of loops over pixels."""
 
 from __future__ import annotations
 
@@ -17,6 +17,5 @@ Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
 
 def compiled(kernel: Kernel) -> Kernel:
-    """``kernel`` compiled by numba at its first call, and kept on disk for the next start. Other
-    threads go on while it runs."""
+    """``kernel`` compiled by numba at its first call, and cached on disk. It releases the GIL."""
     return cast(Kernel, njit(cache=True, nogil=True)(kernel))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 
 class LampblackError(Exception):
-    """A fault of the input or the machine, told to the artist without a traceback.
+    """A fault of the input or the machine, shown to the artist without a traceback.
 
     Args:
         what: one sentence: what happened.
         remedy: one sentence: what to do about it.
-        details: text worth copying into a report (a path, a library's own message).
+        details: text to copy into a report (a path, a library's message).
     """
 
     def __init__(self, what: str, remedy: str = "", details: str = "") -> None:
@@ -23,7 +23,7 @@ class LampblackError(Exception):
 
 
 class DrawingError(LampblackError):
-    """The picture cannot be read, or holds nothing to light."""
+    """The picture cannot be read, or nothing in it can be lit."""
 
 
 class NothingDrawnError(DrawingError):
@@ -39,12 +39,12 @@ class SceneError(LampblackError):
 
 
 class RenderError(LampblackError):
-    """The render child failed or went away."""
+    """The render process failed or ended."""
 
 
 class OutputError(LampblackError):
-    """A result cannot be written: the disk is full, or the folder is not to be written to."""
+    """A result cannot be written: the disk is full, or the folder is not writable."""
 
 
 class LampblackWarning(UserWarning):
-    """Something the artist should know, though the frame was still made."""
+    """Something the artist should know although the frame was rendered."""

@@ -1,4 +1,4 @@
-"""A shot: frames in order, each with a drawing that is lit and what surrounds it."""
+"""Shots: frames in order, each with a drawing to light and the layers around it."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ Sample = TypeVar("Sample", np.uint8, np.float32)
 
 @dataclass(frozen=True)
 class Cel:
-    """What of a frame is lit, in pixels of its own.
+    """The drawing of a frame that is lit, in its own pixels.
 
     Attributes:
         pixels: (H, W, 4) uint8 sRGB, straight alpha.
-        mask, ink: the artist's own, pictures of the same size, or None; see ``decompose_drawing``.
+        mask, ink: the artist's own, same shape, or None; see ``decompose_drawing``.
     """
 
     pixels: Picture
@@ -35,10 +35,10 @@ class ShotFrame:
     """One frame of a shot.
 
     Attributes:
-        number: as the drawings are numbered; None if they are not.
-        name: of its file, with suffix.
-        drawing: names its cel: frames that are alike here are lit once.
-        setting: names what surrounds the cel.
+        number: the drawing's number; None if drawings are not numbered.
+        name: the file's name with suffix.
+        drawing: identifies the cel: frames with the same one are lit once.
+        setting: identifies the layers around the cel, and the camera.
     """
 
     number: int | None
@@ -48,36 +48,36 @@ class ShotFrame:
 
 
 class Shot(Protocol):
-    """Where frames come from: picture files, or a project."""
+    """A source of frames: picture files, or a project."""
 
     @property
     def frames(self) -> Sequence[ShotFrame]:
-        """In order."""
+        """All frames, in order."""
 
     @property
     def canvas(self) -> Canvas | None:
-        """What scenes for this shot are measured in; None if each frame has its own size."""
+        """The canvas of this shot's scenes; None if each frame has its own size."""
 
     def cel(self, frame: ShotFrame) -> Cel:
-        """The drawing that is lit.
+        """The drawing of ``frame`` that is lit.
 
         Raises:
             DrawingError: it cannot be read.
         """
 
     def place(self, scene: Scene, size: tuple[int, int]) -> Scene:
-        """``scene``, made for the canvas, in the pixels of a cel of ``size`` (width, height)."""
+        """``scene``, from the canvas to the pixels of a cel of ``size`` (width, height)."""
 
     def camera(self, frame: ShotFrame) -> Affine:
-        """The cel's pixels to those of the finished frame."""
+        """From the cel's pixels to those of the finished frame."""
 
     def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
-        """The lit cel, (H, W, 4) sRGB with straight alpha (bytes, or 0 to 1), as the camera sees
-        it among what surrounds it."""
+        """The finished frame: the lit cel, (H, W, 4) sRGB with straight alpha (bytes, or 0 to 1),
+        composited with the layers around it and seen through the camera."""
 
 
 def by_drawing(frames: Sequence[ShotFrame]) -> list[list[ShotFrame]]:
-    """Frames that share a drawing, together; groups and their frames keep their order."""
+    """Frames grouped by drawing; groups and their frames keep their order."""
     groups: dict[str, list[ShotFrame]] = {}
     for frame in frames:
         groups.setdefault(frame.drawing, []).append(frame)

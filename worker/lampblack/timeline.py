@@ -1,4 +1,4 @@
-"""The timeline: lights and floor as they are at one frame, between their keys."""
+"""The timeline: lights and floor at one frame, interpolated between their keys."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Mix = Callable[[Any, Any, float], Any]
 
 
 def scene_at(scene: Scene, frame: int) -> Scene:
-    """``scene`` as it is at ``frame``, without keys; ``scene`` itself if nothing is keyed."""
+    """``scene`` at ``frame``, without keys; ``scene`` itself if nothing is keyed."""
     if not is_keyed(scene):
         return scene
     floor = scene.floor
@@ -66,7 +66,7 @@ def _mix_numbers(a: float, b: float, share: float) -> float:
 
 
 def _mix_colours(a: str, b: str, share: float) -> str:
-    """In linear light, as light itself mixes."""
+    """Interpolate ``#rrggbb`` colours in linear light."""
     first, second = hex_linear(a), hex_linear(b)
     mixed = srgb(first + np.float32(share) * (second - first))
     return "#" + bytes(np.rint(mixed * 255).astype(np.uint8)).hex()

@@ -1,5 +1,5 @@
-"""Anti-aliased borders between flat colours: a pixel that is partly two colours wears the material
-of each in part, or the borders of materials would be jagged."""
+"""Anti-aliased borders between flat colours: a pixel that mixes two colours also mixes their
+materials, so that borders between materials are not jagged."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from ..drawing.palette import Palette
 
 _LEAST = 0.002
 _ASTRAY = 0.05
-"""Square of how far a blend may lie off the line between its colours, in lengths of that line."""
+"""Largest squared distance of a mixed colour from the line between its two colours, relative to
+the squared length of that line."""
 
 Labels = NDArray[np.int16]
 
 
 def swatch_albedos(palette: Palette) -> NDArray[np.float32]:
-    """(n + 1, 3) scene-linear, as labels count; the last is for label -1, black."""
+    """(n + 1, 3) scene-linear colours by label; the last, for label -1, is black."""
     colours = [hex_linear(swatch.colour) for swatch in palette.swatches]
     return np.stack([*colours, np.zeros(3, np.float32)])
 
@@ -26,15 +27,15 @@ def swatch_albedos(palette: Palette) -> NDArray[np.float32]:
 def mixed_labels(
     labels: Labels, albedo: NDArray[np.float32], palette: Palette, reach: int = 1
 ) -> tuple[Labels, NDArray[np.float32]]:
-    """Which second colour a pixel wears, and how much of the pixel it covers.
+    """The second label of each pixel that mixes two flat colours, and its share of the pixel.
 
     Args:
         labels: (H, W) int16 index into ``palette.swatches``, -1 outside.
         albedo: (H, W, 3) scene-linear.
-        reach: how far a blend may lie from the second colour, in pixels.
+        reach: largest distance of a mixed pixel from the second colour, in pixels.
 
     Returns:
-        (H, W) int16, the pixel's own label where it is no blend; (H, W) float32 in 0..1.
+        (H, W) int16, the pixel's own label if it is not mixed; (H, W) float32 in 0..1.
     """
     other, share = labels.copy(), np.zeros(labels.shape, np.float32)
     counted = (labels + 1).astype(np.uint16)

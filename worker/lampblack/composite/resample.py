@@ -1,4 +1,4 @@
-"""Passes brought to the size of the drawing."""
+"""Passes resampled to the size of the drawing."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Band:
-    """Rows ``top`` to ``bottom`` of a picture ``width`` x ``height``: large ones are composited
-    a band at a time, so that their memory does not grow with them."""
+    """Rows ``top`` to ``bottom`` of a picture of ``width`` x ``height``. Large pictures are
+    composited band by band, which bounds the memory."""
 
     width: int
     height: int
@@ -20,9 +20,9 @@ class Band:
 
 
 def enlarge(image: NDArray[np.float32], band: Band) -> NDArray[np.float32]:
-    """Bilinear, (h, w, 3) to the (bottom - top, width, 3) of ``band``; the outer pixel edges of
-    the whole pictures coincide, so the centre of column ``i`` lies at
-    ``(i + 0.5) * w / width - 0.5`` among the old columns."""
+    """Bilinear, (h, w, 3) to (bottom - top, width, 3). The outer edges of the whole pictures
+    coincide, so the centre of column ``i`` lies at ``(i + 0.5) * w / width - 0.5`` in the old
+    columns."""
     rows = _along(image, band.height, np.arange(band.top, band.bottom), 0)
     return _along(rows, band.width, np.arange(band.width), 1)
 

@@ -1,4 +1,4 @@
-"""The character's shadow on the floor, laid over whatever lies behind the character."""
+"""The character's shadow on the floor, composited over the background."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..colour import linear, srgb
 from ..render.passes import LightPasses
 from .resample import Band, enlarge
 
-FAINT = np.float32(1e-3)  # no light is no shadow, rather than 0 / 0
+FAINT = np.float32(1e-3)  # avoids 0 / 0: without light there is no shadow
 
 
 def shade_background(
@@ -21,19 +21,19 @@ def shade_background(
     sources: Sequence[tuple[NDArray[np.float32], LightPasses]],
     band: Band,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Shade what shows behind the character.
+    """Shade the background behind the character.
 
-    Paint is multiplied by the floor's light; where there is no paint the shadow becomes a
-    translucent layer that looks the same once laid over white.
+    Paint is multiplied by the floor's light. Where there is no paint, the shadow becomes a
+    translucent layer that looks the same over white.
 
     Args:
         paint: (H, W, 3) sRGB of the background times ``behind``.
-        behind: (H, W, 1) how much of the pixel is background paint.
-        coverage: (H, W, 1) how much is character.
+        behind: (H, W, 1) share of the pixel that is background paint.
+        coverage: (H, W, 1) share of the pixel that is character.
         sources: (3,) weight and passes of each light.
 
     Returns:
-        ``paint`` and ``behind`` with the shadow in them.
+        ``paint`` and ``behind`` with the shadow.
     """
     ratio = floor_ratio(sources, band)
     colour = np.clip(paint / np.maximum(behind, 1e-3), 0, 1)
@@ -49,8 +49,8 @@ def shade_background(
 def floor_ratio(
     sources: Sequence[tuple[NDArray[np.float32], LightPasses]], band: Band
 ) -> NDArray[np.float32]:
-    """The floor's light with the character over that without it, all sources together, for the
-    pixels of ``band``; 1 where no light falls."""
+    """The floor's light with the character divided by that without it, over all sources, for
+    the pixels of ``band``; 1 where no light falls."""
     floors = [
         (weight * source.floor, weight * source.open_floor)
         for weight, source in sources

@@ -1,5 +1,5 @@
-"""Projects of Pencil2D, and OpenRaster drawings: read without the program that wrote them, and
-without trusting what is in them."""
+"""Pencil2D projects and OpenRaster drawings, read without Pencil2D and without trust: names, sizes
+and counts in the files are checked."""
 
 from .archive import SUFFIXES, is_project
 from .document import CameraKey, Key, Layer, Project

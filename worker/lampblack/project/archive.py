@@ -1,6 +1,6 @@
-"""The files inside a project: a zip (``.pclx``, ``.ora``), or a folder beside its XML (``.pcl``).
+"""The files of a project: in a zip (``.pclx``, ``.ora``), or in a folder beside the XML (``.pcl``).
 
-Nothing is unpacked. Names, sizes and counts come from a stranger: every one is bounded.
+Nothing is unpacked. Names, sizes and counts are untrusted input, and all of them are bounded.
 """
 
 from __future__ import annotations
@@ -25,26 +25,27 @@ class Archive(Protocol):
     path: Path
 
     def xml(self) -> bytes:
-        """The project's description."""
+        """The XML that describes the project."""
 
     def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
         """A file of the data folder.
 
         Raises:
-            ProjectError: its name leads elsewhere, it is not there, damaged or too large.
+            ProjectError: the name leads out of the folder, or the file is missing, damaged or
+                too large.
         """
 
 
 def is_project(path: str | Path) -> bool:
-    """Whether ``path`` is named like a project, of Pencil2D or OpenRaster."""
+    """Whether ``path`` has the suffix of a Pencil2D project or an OpenRaster drawing."""
     return Path(path).suffix.lower() in SUFFIXES
 
 
 def open_archive(path: Path) -> Archive:
-    """Open a project's files.
+    """Open the files of a project.
 
     Raises:
-        ProjectError: there is none, or it is no project.
+        ProjectError: there is no such file, or it is not a project.
     """
     if not path.is_file():
         raise ProjectError(f"There is no project at {path}.", "Check the name and the folder.")
@@ -77,7 +78,7 @@ class _Zipped:
     def _read(self, name: str, limit: int) -> bytes:
         try:
             with self._zip.open(name) as file:
-                # What the directory says of the size is not believed.
+                # The size in the zip's directory is not trusted.
                 data = file.read(limit + 1)
         except KeyError as error:
             raise _missing(self.path, name) from error
@@ -120,7 +121,7 @@ class _Folder:
 
 
 def _check_name(name: str) -> None:
-    """Keyframes lie in one folder: a name with a way in it is not to be followed."""
+    """Refuse a name with a path in it: keyframes are directly in the data folder."""
     if not name or len(name) > 255 or name in (".", "..") or set(name) & set("/\\:\0"):
         raise _strays(name)
 

@@ -1,4 +1,4 @@
-"""Values in a project's XML, bounded: they come from a stranger."""
+"""Attributes of a project's XML, checked against bounds: they are untrusted input."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def sound_xml(xml: bytes, name: str) -> Element:
     """The root of ``xml``; ``name`` is for the errors.
 
     Raises:
-        ProjectError: malformed, or with entities.
+        ProjectError: the XML is malformed or declares entities.
     """
     try:
         root: Element = fromstring(xml, forbid_entities=True)
@@ -32,7 +32,7 @@ def sound_xml(xml: bytes, name: str) -> Element:
 
 
 def check_size(width: int, height: int, subject: str) -> None:
-    """Refuse pictures that nothing could be lit at."""
+    """Refuse a picture that is empty or too large to be lit."""
     if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= MAX_PIXELS):
         raise ProjectError(
             f"{subject} is {width} x {height} pixels.",
@@ -44,7 +44,7 @@ def whole(element: Element | None, name: str, default: int) -> int:
     """An attribute that is a whole number.
 
     Raises:
-        ProjectError: see ``number``; or it is none.
+        ProjectError: it is not whole, or see ``number``.
     """
     value = number(element, name, default)
     if value != int(value):
@@ -53,10 +53,10 @@ def whole(element: Element | None, name: str, default: int) -> int:
 
 
 def number(element: Element | None, name: str, default: float) -> float:
-    """An attribute that is a number; ``default`` where it is not there.
+    """An attribute that is a number; ``default`` if it is absent.
 
     Raises:
-        ProjectError: it is not finite, no number, or beyond all bounds.
+        ProjectError: it is not a number, not finite, or out of bounds.
     """
     text = None if element is None else element.get(name)
     if text is None:

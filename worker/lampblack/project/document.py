@@ -1,7 +1,7 @@
-"""What a Pencil2D project says: its layers, their keyframes, and its camera.
+"""The description of a Pencil2D project: layers, their keyframes, and cameras.
 
-Pencil2D's own frame of reference: x right, y *down*, its origin where the centre of an unmoved
-camera looks. Frames count from 1; a keyframe holds until the next.
+Pencil2D's frame of reference: x right, y *down*, with the origin at the centre of the view of a
+camera that has not moved. Frames count from 1. A keyframe holds until the next one.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ class Key:
     """A drawing on a layer.
 
     Attributes:
-        file: its name in the project's data folder.
-        left, top: of a bitmap, where its corner lies.
+        file: name in the project's data folder.
+        left, top: position of a bitmap's top left corner.
         opacity: 0 to 1.
     """
 
@@ -45,14 +45,14 @@ class Layer:
     keys: tuple[Key, ...]
 
     def key_at(self, frame: int) -> Key | None:
-        """The drawing that ``frame`` shows; None before the first."""
+        """The drawing that ``frame`` shows; None before the first key."""
         return _held(self.keys, frame)
 
 
 @dataclass(frozen=True)
 class CameraKey:
-    """Where the camera is at a frame: drawings are moved by (dx, dy), turned by ``turn``
-    degrees (clockwise) and then scaled, all about the picture's centre."""
+    """The camera at a frame: drawings are moved by (dx, dy), rotated by ``turn`` degrees
+    (clockwise) and then scaled, all about the picture's centre."""
 
     frame: int
     dx: float = 0.0
@@ -75,7 +75,7 @@ class CameraKey:
 
 @dataclass(frozen=True)
 class Camera:
-    """What is seen: ``width`` x ``height`` pixels."""
+    """A camera with a view of ``width`` x ``height`` pixels."""
 
     name: str
     width: int
@@ -83,9 +83,9 @@ class Camera:
     keys: tuple[CameraKey, ...]
 
     def at(self, frame: int) -> Affine:
-        """Canvas to picture at ``frame``: the canvas is the picture of an unmoved camera.
+        """From canvas to picture at ``frame``. The canvas is the view of a camera without keys.
 
-        Between two keys the matrices are mixed evenly, as Pencil2D 0.6 does it.
+        Between two keys the matrices are interpolated linearly, as in Pencil2D 0.6.
         """
         across, down = self.width // 2, self.height // 2
         a, b, c, d, e, f = self._matrix(frame)
@@ -112,12 +112,12 @@ class Camera:
 
 @dataclass(frozen=True)
 class Project:
-    """A project as described, pictures apart.
+    """A project without its pictures.
 
     Attributes:
-        layers: of drawings, bottom first.
+        layers: layers of drawings, bottom first.
         cameras: in the project's order.
-        length: the last frame.
+        length: number of the last frame.
         fps: frames per second.
     """
 

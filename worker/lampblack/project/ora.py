@@ -1,7 +1,8 @@
-"""OpenRaster, the layers of one drawing (.ora: Krita, MyPaint, GIMP), as a project of one frame.
+"""OpenRaster files, the layers of one drawing (.ora: Krita, MyPaint, GIMP), as projects of one
+frame.
 
-Its frame of reference: x right, y down, the origin in the canvas's corner; the first layer of a
-stack is its topmost (https://www.openraster.org, "Layer stack specification").
+Frame of reference: x right, y down, with the origin in the canvas's corner. The first layer of a
+stack is the topmost (https://www.openraster.org, "Layer stack specification").
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ PLAIN = "svg:src-over"
 
 @dataclass(frozen=True)
 class _Group:
-    """What a stack does to the layers in it."""
+    """Position, opacity and visibility that a stack gives to the layers in it."""
 
     left: int = 0
     top: int = 0
@@ -33,14 +34,14 @@ class _Group:
 
 
 def parse_stack(xml: bytes, name: str) -> Project:
-    """The project that a ``stack.xml`` describes; ``name`` is for the errors. Groups are taken
-    apart: their opacity, place and visibility go to their layers.
+    """The project that a ``stack.xml`` describes; ``name`` is for the errors. Groups are resolved:
+    their opacity, position and visibility are applied to their layers.
 
     Raises:
-        ProjectError: damaged, or with a value that makes no sense.
+        ProjectError: the XML is damaged, or a value makes no sense.
 
     Warns:
-        LampblackWarning: layers are blended in a way that is not known here.
+        LampblackWarning: layers have a blend mode that is not supported.
     """
     root = sound_xml(xml, name)
     stack = root.find("stack")
@@ -58,7 +59,7 @@ def parse_stack(xml: bytes, name: str) -> Project:
             LampblackWarning,
             stacklevel=2,
         )
-    # Keys are placed from the middle of the canvas, as Pencil2D's are.
+    # Keys are positioned relative to the middle of the canvas, as in Pencil2D.
     found = list(_layers(stack, _Group(-(width // 2), -(height // 2)), name))
     layers = tuple(
         Layer(number, label or f"Layer {number}", "bitmap", visible, (key,))
@@ -82,7 +83,7 @@ def _layers(stack: Element, group: _Group, name: str) -> Iterator[tuple[str, boo
         if element.tag == "stack":
             yield from _layers(element, inner, name)
         elif element.tag == "layer":
-            # Pictures lie in one folder; a name that leads elsewhere is refused when it is read.
+            # Pictures are in one folder; a name that leads out of it is refused on reading.
             file = element.get("src", "").removeprefix(FOLDER)
             key = Key(1, file, inner.left, inner.top, inner.opacity)
             yield element.get("name", "")[:200], inner.visible, key

@@ -1,4 +1,4 @@
-"""Layers painted over each other, on a stretch of the canvas."""
+"""Layers composited on a part of the canvas."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Picture = NDArray[np.uint8]
 
 @dataclass
 class LayerPainter:
-    """Paints the layers of one project.
+    """Composites the layers of one project.
 
     Args:
-        region: what of the canvas is painted.
+        region: the part of the canvas that is painted.
         origin: Pencil2D's origin, (x, y) canvas pixels.
-        vectors: draws the vector layers.
+        vectors: renders the vector layers.
     """
 
     archive: Archive
@@ -38,7 +38,7 @@ class LayerPainter:
     _digests: dict[str, str] = field(default_factory=dict)
 
     def paint(self, layers: Sequence[Layer], frame: int) -> Picture:
-        """(H, W, 4) uint8 sRGB, straight alpha: what ``layers``, bottom first, show at ``frame``.
+        """(H, W, 4) uint8 sRGB, straight alpha: ``layers``, bottom first, at ``frame``.
 
         Raises:
             ProjectError: a picture is missing or damaged.
@@ -52,7 +52,7 @@ class LayerPainter:
         return np.array(canvas)
 
     def fingerprint(self, layers: Sequence[Layer], frame: int) -> str:
-        """A name for what ``paint`` would give; the same for frames that show the same."""
+        """A digest of all that determines the result of ``paint``."""
         shown: list[object] = [self.region, self.origin]
         for layer in layers:
             key = layer.key_at(frame)
@@ -75,7 +75,7 @@ class LayerPainter:
             raise
         except DrawingError as error:
             raise ProjectError(error.what, error.remedy, error.details) from error
-        # Only what lies within: a picture may be placed anywhere.
+        # A picture may be anywhere: only its part on the canvas is painted.
         picture = picture[max(0, -top) :, max(0, -left) :]
         picture = picture[: max(0, canvas.height - top), : max(0, canvas.width - left)]
         if not picture.size:
@@ -89,6 +89,6 @@ class LayerPainter:
         if name not in self._digests:
             try:
                 self._digests[name] = digest(self.archive.read(name))
-            except ProjectError as error:  # told when the frame is made
+            except ProjectError as error:  # reported when the frame is painted
                 self._digests[name] = digest(name, str(error))
         return self._digests[name]

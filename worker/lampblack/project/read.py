@@ -1,4 +1,4 @@
-"""A project's XML to a ``Project``."""
+"""Reading projects: from XML to a ``Project``."""
 
 from __future__ import annotations
 
@@ -22,11 +22,10 @@ LONGEST = 100_000
 
 
 def read_project(path: str | Path) -> tuple[Project, Archive]:
-    """Read what a ``.pclx``, ``.pcl`` or ``.ora`` describes; its pictures are read when they are
-    wanted.
+    """Read a ``.pclx``, ``.pcl`` or ``.ora``. Its pictures are read later, when they are needed.
 
     Raises:
-        ProjectError: no project, damaged, or with a value that makes no sense.
+        ProjectError: the file is no project, is damaged, or has a value that makes no sense.
     """
     archive = open_archive(Path(path))
     described = parse_stack if archive.path.suffix.lower() == ORA else parse
@@ -119,7 +118,7 @@ def _frame(element: Element, name: str) -> int:
 
 
 def _marked_end(root: Element) -> int:
-    """The end of the range that is played, if one is marked."""
+    """The last frame of the playback range; 1 if no range is marked."""
     ranged = root.find("projectdata/isRangedPlayback")
     if ranged is None or ranged.get("value") != "true":
         return 1

@@ -31,14 +31,14 @@ Sample = TypeVar("Sample", np.uint8, np.float32)
 
 
 class ProjectShot:
-    """The frames of a project through one of its cameras.
+    """The frames of a project, seen through one of its cameras.
 
     Args:
-        roles: what layers are, by name; see ``stack_layers``.
-        camera: its name; None is the first.
+        roles: roles of layers by name; see ``stack_layers``.
+        camera: the camera's name; None is the first camera.
 
     Raises:
-        ProjectError: nothing to light, no such camera, or one that sees too much.
+        ProjectError: there is nothing to light, no such camera, or its view is too large.
     """
 
     def __init__(
@@ -83,8 +83,8 @@ class ProjectShot:
         return self._through(_number(frame))
 
     def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
-        """As Pencil2D lays layers over each other; where there are none and the camera does not
-        turn or scale, the lit cel itself."""
+        """Layers are composited as in Pencil2D. Without other layers, and under a camera that only
+        translates, this is the lit cel itself."""
         number = _number(frame)
         below = self._painter.paint(self._stack.below, number) if self._stack.below else None
         above = self._painter.paint(self._stack.above, number) if self._stack.above else None
@@ -92,16 +92,16 @@ class ProjectShot:
         size = self.canvas.width, self.canvas.height
         if below is None and above is None and camera[:2] + camera[3:5] == (1.0, 0.0, 0.0, 1.0):
             return look_through(lit, camera, size)
-        laid = _light(lit)
+        laid = _premultiplied(lit)
         if below is not None:
-            laid = _over(laid, _light(below))
+            laid = _over(laid, _premultiplied(below))
         if above is not None:
-            laid = _over(_light(above), laid)
+            laid = _over(_premultiplied(above), laid)
         seen = _straight(look_through(laid, camera, size))
         return (np.rint(seen * 255) if lit.dtype == np.uint8 else seen).astype(lit.dtype)
 
     def _through(self, number: int) -> Affine:
-        """The region's pixels to the picture's."""
+        """From the region's pixels to the picture's."""
         a, b, c, d, e, f = self._camera.at(number)
         left, top = self.region.left, self.region.top
         return a, b, c + a * left + b * top, d, e, f + d * left + e * top
@@ -118,7 +118,7 @@ def _choose(project: Project, name: str | None) -> Camera:
 
 
 def _region(camera: Camera, length: int) -> Region:
-    """All of the canvas that the camera sees in any frame."""
+    """The part of the canvas that the camera sees, over all frames."""
     low, high = np.full(2, math.inf), np.full(2, -math.inf)
     corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * [camera.width, camera.height]
     for matrix in {camera.at(number) for number in range(1, length + 1)}:
@@ -143,8 +143,8 @@ def _number(frame: ShotFrame) -> int:
     return frame.number
 
 
-def _light(picture: Picture | NDArray[np.float32]) -> NDArray[np.float32]:
-    """(H, W, 4) straight, bytes or 0 to 1, to premultiplied 0 to 1."""
+def _premultiplied(picture: Picture | NDArray[np.float32]) -> NDArray[np.float32]:
+    """(H, W, 4) straight alpha, bytes or 0 to 1, to premultiplied 0 to 1."""
     most = 255 if picture.dtype == np.uint8 else 1
     laid = np.divide(picture, most, dtype=np.float32)
     laid[..., :3] *= laid[..., 3:]

@@ -1,4 +1,4 @@
-"""Which layers of a project are lit, and which lie beneath and above them."""
+"""The layers of a project sorted by role: lit, below and above."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..scene import Scene
 from .document import Layer, Project
 
 Roles = Mapping[str, LayerRole]
-"""By layer name."""
+"""Roles by layer name."""
 
 ROLES_FIELD = "pencil2d_layers"
-"""Where the drawing tool keeps the roles: among the scene's unknown fields."""
+"""The scene's extra field in which the Pencil2D plugin stores the roles."""
 RESULT_LAYER = "Lit"
-"""What the drawing tool names the layer of its results: it is never lit again."""
+"""The layer of rendered frames that the Pencil2D plugin adds; it is never lit itself."""
 
 
 @dataclass(frozen=True)
@@ -26,9 +26,9 @@ class Stack:
     """The layers that are shown, each list bottom first.
 
     Attributes:
-        below, above: shown as they are, under and over what is lit.
-        lit: characters and their lines, lit as one drawing.
-        line: those of ``lit`` that hold nothing but line.
+        below, above: layers shown unlit, under and over the lit ones.
+        lit: layers of characters and their lines, lit as one drawing.
+        line: those of ``lit`` that contain only line.
     """
 
     below: tuple[Layer, ...]
@@ -38,14 +38,14 @@ class Stack:
 
 
 def stack_layers(project: Project, roles: Roles) -> Stack:
-    """Sort the layers. Without a ``character`` or a ``line``, all that is visible is lit but
-    what is ``background``; otherwise, layers without a role are background.
+    """Sort the layers by role. If any layer has the role ``character`` or ``line``, layers without
+    a role are background. Otherwise every visible layer is lit, except ``background``.
 
-    Where a layer of results lies, its sources may have been hidden behind it: those that have
-    a role are lit all the same.
+    If the project has a visible layer of rendered frames, layers with a role are lit even when
+    they are hidden: the artist may have hidden them behind the result.
 
     Raises:
-        ProjectError: there is nothing to light.
+        ProjectError: no layer is lit.
     """
     _check_names(project, roles)
     named = "character" in roles.values() or "line" in roles.values()
@@ -74,7 +74,7 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
 
 
 def roles_of(scene: Scene) -> dict[str, LayerRole]:
-    """The roles that the drawing tool keeps in ``scene``; what is malformed counts for nothing."""
+    """The roles that the Pencil2D plugin stored in ``scene``; malformed ones are ignored."""
     kept: Any = scene.extra.get(ROLES_FIELD)
     if not isinstance(kept, dict):
         return {}

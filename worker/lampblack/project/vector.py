@@ -1,4 +1,4 @@
-"""Vector layers, drawn by the Pencil2D that is installed: nothing else draws them alike."""
+"""Vector layers, rendered by the installed Pencil2D, so that they look the same as there."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ KEPT_VARIABLES = ("PATH", "LANG")
 
 @dataclass
 class VectorPictures:
-    """Exports a layer's drawings when the first of them is wanted.
+    """Exports a layer's drawings when the first of them is needed.
 
     Args:
         origin: Pencil2D's origin, (x, y) canvas pixels.
@@ -40,17 +40,17 @@ class VectorPictures:
     _exported: dict[tuple[int, int], Path] = field(default_factory=dict)
 
     def picture(self, layer: Layer, key: Key, region: Region) -> NDArray[np.uint8]:
-        """(H, W, 4) uint8, straight alpha: a drawing of a vector layer, as it lies in ``region``.
+        """(H, W, 4) uint8, straight alpha: the part of a vector drawing in ``region``.
 
         Raises:
-            ProjectError: there is no Pencil2D, or it cannot draw this.
+            ProjectError: Pencil2D is not installed or cannot render the layer.
         """
         if (layer.number, key.frame) not in self._exported:
             self._export(layer, region)
         return load_picture(self._exported[layer.number, key.frame])
 
     def _export(self, layer: Layer, region: Region) -> None:
-        """Have Pencil2D draw every keyframe, one a frame, under a camera that sees ``region``."""
+        """Let Pencil2D render every keyframe as a frame, with a camera that shows ``region``."""
         program = shutil.which(PROGRAM)
         if program is None:
             raise ProjectError(
@@ -95,7 +95,7 @@ class VectorPictures:
         return b"<!DOCTYPE PencilDocument>\n" + text
 
     def _run(self, program: str, project: Path, output: Path, frames: int) -> None:
-        """With a home of its own, so that no settings and no other Pencil2D come in between."""
+        """Run Pencil2D with its own home folder, apart from the user's settings and instances."""
         home = project.parent / "home"
         home.mkdir()
         own = {name: str(home) for name in ("HOME", "TMPDIR", "XDG_RUNTIME_DIR")}

@@ -1,8 +1,8 @@
-"""How a grid of nodes becomes polygons: marching squares that can also cut between nodes.
+"""From a grid of nodes to polygons: marching squares that can also cut between nodes.
 
-A cell is the square between four neighbouring nodes, taken counter-clockwise as the viewer
-sees it (rows run down): top left, bottom left, bottom right, top right. Its side k joins
-corner k to corner k + 1. A side is linked when the surface runs on along it; a node ends
+A cell is the square between four neighbouring nodes. Its corners are counted counter-clockwise
+as the viewer sees them (rows run down): top left, bottom left, bottom right, top right. Side k
+joins corner k to corner k + 1. A side is linked if the surface continues along it. A node ends
 half way along every side that is not linked, in a *rim* vertex of its own.
 """
 
@@ -16,20 +16,20 @@ CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
 """(row, column) of the corners within the cell."""
 
 HEADINGS = (("down", "up"), ("right", "left"), ("up", "down"), ("left", "right"))
-"""Along side k: where its second corner lies from its first, and the other way."""
+"""For side k: the direction from its first corner to its second, and the reverse."""
 
 WHOLE = 0b1111_1111
 """The code of a cell with four nodes and four linked sides."""
 
 
 def rim_slot(corner: int, side: int) -> int:
-    """Slots 0-3 are the corners; 4-11 the rims of a side: its first corner's, its second's."""
+    """Slots 0 to 3 are the corners; 4 to 11 are two rims per side, first corner's then second's."""
     return 4 + 2 * side + (corner != side)
 
 
 @dataclass(frozen=True)
 class Pieces:
-    """Surface of one cell by slot: triangles, and the open edges their border leaves."""
+    """Surface of one cell, by slot: its triangles and its open edges."""
 
     triangles: tuple[tuple[int, int, int], ...]
     open_edges: tuple[tuple[int, int], ...]

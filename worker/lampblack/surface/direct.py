@@ -1,13 +1,13 @@
 """The exact minimiser of the inflation energy on the compact stencil.
 
-Setting the derivative of ``energy_compact`` to zero gives one Poisson-like system per character,
+Setting the derivative of ``energy_compact`` to zero gives a Poisson-like system per character,
 ``L z = b``: L the Laplacian of the pixel graph with weights nz^2, b the divergence of the
-slopes that the normals ask for. Conjugate gradient with a multigrid cycle as preconditioner
-solves it in a dozen iterations, whatever the size of the character.
+slopes that the normals imply. Conjugate gradient with a multigrid cycle as preconditioner
+solves it in about twelve iterations for every size of character.
 
-On normals with strong noise in every pixel, eq. 6 has lower minima than this one: surfaces
-with ripples that its wide kernels cannot see, bent to fit the noise. They are further from
-the surface without the noise, so they are left to Adam.
+With strong noise in every pixel, eq. 6 has lower minima than this one: surfaces that fit the
+noise with ripples, which its wide kernels cannot see. They are further from the surface
+without the noise. Only Adam finds them.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..compiled import compiled
 from .multigrid import Graph, Multigrid, apply_laplacian
 
 TOLERANCE = 1e-3
-"""Of the residual, against that of a flat character: about 0.02 pixels at a height of 300."""
+"""Residual, relative to that of a flat surface: about 0.02 pixels at a height of 300."""
 MAX_ITERATIONS = 60
 
 
@@ -27,11 +27,11 @@ def inflate_direct(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDA
     """Heights that minimise ``energy_compact`` at gamma 1; for another gamma, divide by it.
 
     Args:
-        normals: (H, W, 3), as ``usable_normals`` gives them: nz well above 0.
+        normals: (H, W, 3), from ``usable_normals``: nz well above 0.
         mask: (H, W), True inside the character.
 
     Returns:
-        (H, W) float32 pixels, 0 outside, every connected part up to a constant of its own.
+        (H, W) float32 pixels, 0 outside; each connected part is known up to a constant.
     """
     height = np.zeros(mask.shape, np.float32)
     if mask.any():
@@ -87,7 +87,7 @@ def _link_pixels(
 
 
 def _conjugate_gradient(graph: Graph, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Solve ``Laplacian z = rhs``; the flexible kind, since a K-cycle is not quite linear."""
+    """Solve ``Laplacian z = rhs`` by the flexible variant: a K-cycle is not quite linear."""
     precondition = Multigrid(graph)
     z = np.zeros_like(rhs)
     residual = rhs.copy()

@@ -6,12 +6,12 @@ tangents of eq. 4 give the residuals
 
     nx + gamma nz dz/dcolumn        and        ny - gamma nz dz/drow,
 
-and the energy is the sum of their squares. It is quadratic in z, and its least value is
-reached at a z proportional to 1 / gamma. ``nz^2`` weighs each slope, so that a rim, where
-slopes are steep and uncertain, counts for little.
+and the energy is the sum of their squares. It is quadratic in z. Its minimum is proportional
+to 1 / gamma. Each slope has the weight ``nz^2``, so a rim, where slopes are steep and
+uncertain, counts little.
 
-The two discretisations differ in how a slope is read off the heights. Both look only at
-pixels of the mask: a difference across its border would compare the character with nothing.
+The two discretisations differ in how they compute a slope from the heights. Both use only
+pixels of the mask: beyond its border there are no heights.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ KERNEL_Y = np.array([[1, 4, 1], [0, 0, 0], [-1, -4, -1]], dtype=np.float32) / 12
 
 
 def whole_windows(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(H, W) bool: pixels whose 3x3 window lies in ``mask``, where eq. 6 can be read."""
+    """(H, W) bool: pixels whose 3x3 window lies in ``mask``, where eq. 6 is defined."""
     padded = np.pad(mask, 1)
     columns = padded[:, :-2] & padded[:, 1:-1] & padded[:, 2:]
     return np.asarray(columns[:-2] & columns[1:-1] & columns[2:])
@@ -40,7 +40,7 @@ def energy_paper(
 ) -> float:
     """Eq. 5 with the kernels of eq. 6, summed over the pixels whose window is whole.
 
-    The kernels span two pixels and annihilate a checkerboard: this energy cannot see one.
+    The kernels span two pixels, so a checkerboard of heights has no energy.
 
     Args:
         height: (H, W) pixels towards the viewer.
@@ -68,8 +68,8 @@ def energy_compact(
 ) -> float:
     """Eq. 5 on links: differences of neighbouring pixels against the mean of their normals.
 
-    Every link with both ends in the mask counts once; no pattern of heights but a constant
-    for each connected part is invisible to it. Arguments as for ``energy_paper``.
+    Every link with both ends in the mask counts once. Only a constant per connected part has no
+    energy. Arguments as for ``energy_paper``.
     """
     z = height.astype(np.float64)
     n = normals.astype(np.float64)

@@ -1,4 +1,4 @@
-"""The relief as a file for other programs: GLB, OBJ or PLY."""
+"""Export of the relief for other programs: GLB, OBJ or PLY."""
 
 from __future__ import annotations
 

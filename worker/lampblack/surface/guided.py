@@ -1,10 +1,10 @@
-"""Fast guided filter (He and Sun, 2015) of the height map, as the paper cleans its own.
+"""Fast guided filter (He and Sun, 2015) of the height map, as in the paper.
 
-The guide is the height itself together with the pixel's position. Guided by height alone,
-the filter would pull every slope towards its mean and draw a rim inwards; with position in
-the local linear model, the unfiltered limit of a window is its best plane, so slopes and
-rims stay where they are and only departures from the plane smaller than ``detail`` are
-smoothed. A guide of nz would blur a ridge between two slopes of equal nz; the height knows it.
+The guide is the height together with the pixel's position. With the height alone, the filter
+would flatten every slope and pull rims inwards. With the position in the local linear model, a
+window is smoothed towards its best plane: slopes and rims keep their place, and only departures
+from the plane smaller than ``detail`` are smoothed. A guide of nz would blur a ridge between
+two slopes of equal nz; the height does not.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ def guided_filter(
 ) -> NDArray[np.float32]:
     """Smooth ``height`` where it departs from a plane by less than about ``detail``.
 
-    Nothing outside the mask is read: windows are averaged over the pixels they share with it.
+    Pixels outside the mask do not count: a window is averaged over its pixels in the mask.
 
     Args:
         height: (H, W) float32, pixels towards the viewer.
         mask: (H, W) bool, True inside the character.
         radius: of the square window, in pixels.
-        detail: pixels of height; the filter's regularisation is its square.
-        subsample: the local models are fitted on every such pixel.
+        detail: pixels of height; its square is the filter's regularisation.
+        subsample: local models are fitted on every ``subsample``-th row and column.
 
     Returns:
         (H, W) float32, 0 outside the mask.

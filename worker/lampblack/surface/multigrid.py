@@ -1,11 +1,11 @@
 """Aggregation multigrid for the Laplacian of a weighted graph of pixels.
 
-The graph of a character has ragged borders, holes and, along creases and rims, lines of nearly
-cut links, on which plain geometric coarsening stalls. So pixels are paired along their
-strongest links, twice a level, and a coarse link is the sum of the links it stands for
-(Galerkin with piecewise constants). A K-cycle, two steps of conjugate gradient on every
-coarse level, makes up for the crude interpolation: Notay, "An aggregation-based algebraic
-multigrid method", ETNA 37, 2010.
+The graph of a character has ragged borders, holes and, along creases and rims, lines of very
+weak links. Geometric coarsening converges slowly on it. So pixels are paired along their
+strongest links, twice per level, and a coarse link is the sum of the links between its two
+aggregates (Galerkin with piecewise constants). A K-cycle, two steps of conjugate gradient on
+every coarse level, compensates for the simple interpolation: Notay, "An aggregation-based
+algebraic multigrid method", ETNA 37, 2010.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 STRONG = 0.25
-"""Nodes pair along a link at least this share of their strongest."""
+"""Nodes pair along a link of at least this share of their strongest."""
 COARSEST = 160
-"""So few nodes are solved outright."""
+"""At most this many nodes are solved directly."""
 
 
 @dataclass(frozen=True)

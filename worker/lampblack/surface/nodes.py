@@ -1,4 +1,4 @@
-"""The vertices of a relief's front: a node for every block of pixels, rims where it ends."""
+"""The vertices of a relief's front: a node per block of pixels, and rims where it ends."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 STEP = 4.0
-"""Neighbours whose heights differ by this multiple of the slope on either side (or of one
-pixel a pixel, where it is flatter) lie on two sides of a step."""
+"""Two neighbours are on two sides of a step if their heights differ by more than this multiple of
+the slope on either side (at least one pixel per pixel)."""
 GAP = 1 / 64
-"""Pixels between the two lips of a step, so that no face there is degenerate."""
+"""Pixels between the two edges of a step, so that no face there is degenerate."""
 
 HEADING = {"right": (0, 1), "left": (0, -1), "down": (1, 0), "up": (-1, 0)}
 """(rows, columns) to the neighbour."""
@@ -19,15 +19,15 @@ HEADING = {"right": (0, 1), "left": (0, -1), "down": (1, 0), "up": (-1, 0)}
 
 @dataclass(frozen=True)
 class Nodes:
-    """Nodes on a grid of R x C blocks, with a ring of empty blocks about it.
+    """Nodes on a grid of R x C blocks, the outermost of which are empty.
 
     Attributes:
         points: (N, 3) float32, x right, y down, z towards the viewer: nodes, then rims.
         number: (R, C) int32, the block's node in ``points``; -1 where the block is empty.
-        link_right: (R, C - 1) bool, the surface runs on to the block on the right.
-        link_down: (R - 1, C) bool, or to the one below.
-        rim: by heading, (R, C) int32, where the node's surface ends that way; -1 where it
-            runs on.
+        link_right: (R, C - 1) bool, the surface continues to the block on the right.
+        link_down: (R - 1, C) bool, the surface continues to the block below.
+        rim: by heading, (R, C) int32, the vertex where the node's surface ends in that
+            direction; -1 where it continues.
     """
 
     points: NDArray[np.float32]
@@ -38,11 +38,11 @@ class Nodes:
 
 
 def place_nodes(height: NDArray[np.float32], mask: NDArray[np.bool_], stride: int) -> Nodes:
-    """Put a node on the pixel of the mask nearest the middle of every block.
+    """Place a node on the pixel of the mask nearest to the middle of every block.
 
-    So no part of the character is missed, however thin. Rims towards an empty block lie on the
-    outer edge of the last pixel of the mask that way, their height carried on along the
-    slope; rims at a step lie half way to the other node.
+    So no part of the character is missed, however thin. A rim towards an empty block lies on
+    the outer edge of the last pixel of the mask in that direction; its height is extrapolated
+    along the slope. A rim at a step lies half way to the other node.
     """
     blocks = _blocks(mask, stride)
     middle = (stride - 1) / 2
@@ -87,7 +87,7 @@ def place_nodes(height: NDArray[np.float32], mask: NDArray[np.bool_], stride: in
 
 
 def _blocks(mask: NDArray[np.bool_], stride: int) -> NDArray[np.bool_]:
-    """(R, C, stride * stride) the mask by blocks, ringed by empty ones."""
+    """(R, C, stride * stride) the mask by blocks, with empty blocks around it."""
     rows, columns = (-(-size // stride) + 2 for size in mask.shape)
     padded = np.zeros((rows * stride, columns * stride), bool)
     padded[stride : stride + mask.shape[0], stride : stride + mask.shape[1]] = mask
@@ -112,7 +112,7 @@ def _mask_edge(
     heading: tuple[int, int],
     stride: int,
 ) -> NDArray[np.float32]:
-    """(N, 3) the outer edge of the last pixel of the mask, from a node to its block's end."""
+    """(N, 3) the outer edge of the last pixel of the mask between a node and its block's end."""
     down, right = heading
     last = np.zeros(len(row), np.intp)
     for ahead in range(1, stride):

@@ -11,8 +11,8 @@ from . import cells
 from .nodes import Nodes, place_nodes
 
 BACK_DEPTH = 0.5
-"""The back mirrors the front at this share of its height: round enough that light from the
-side or from behind meets a body, not a card."""
+"""The back mirrors the front at this share of its height, so that light from the side or from
+behind meets a round body instead of a flat card."""
 THICKNESS = 1.0
 """Pixels between the front and the back where the front is lowest."""
 
@@ -43,9 +43,9 @@ def build_relief(
 ) -> Relief:
     """Mesh the height map, one vertex for each block of ``stride`` x ``stride`` pixels.
 
-    The silhouette is the mask's outline, its pixel corners cut. Where the height jumps far
-    more than the slopes on either side imply, the surface is cut instead of bridged. Every
-    front vertex has one behind it and every open edge a wall, so the mesh is closed.
+    The silhouette is the mask's outline with its pixel corners cut. Where the height changes
+    far more than the slopes on either side imply, the surface is cut. Every front vertex has
+    one behind it and every open edge has a wall, so the mesh is closed.
 
     Args:
         height: (H, W) float32, pixels towards the viewer.
@@ -54,7 +54,7 @@ def build_relief(
         relief_scale: multiplies the height (1 / gamma in the paper's eq. 4).
 
     Raises:
-        ValueError: shapes that differ, a height that is not finite, a stride below 1.
+        ValueError: the shapes differ, the height is not finite, or the stride is below 1.
     """
     if height.ndim != 2 or height.shape != mask.shape:
         raise ValueError(f"height {height.shape} and mask {mask.shape} are not the same (H, W)")
@@ -75,10 +75,10 @@ def build_relief(
 
 
 def check_relief(relief: Relief) -> list[str]:
-    """What is wrong with the mesh, one sentence each; nothing for a sound one.
+    """Faults of the mesh, one sentence each; empty for a valid mesh.
 
-    Looks for vertices that are not finite, faces that name vertices there are none of,
-    degenerate faces, and edges that are not shared by exactly two faces of one winding.
+    Finds vertices that are not finite, faces with vertices that do not exist, degenerate faces,
+    and edges that are not shared by exactly two faces of the same winding.
     """
     vertices, faces = relief.vertices, relief.faces
     if len(faces) == 0:
@@ -128,7 +128,7 @@ def _front(nodes: Nodes) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         triangles += [np.stack([slots[s][at] for s in t], axis=1) for t in found.triangles]
         open_edges += [np.stack([slots[s][at] for s in e], axis=1) for e in found.open_edges]
     edges = np.concatenate(open_edges)
-    # A step one link long opens the same edge in both its cells: there they join.
+    # A step one link long opens the same edge in both of its cells: the two cancel.
     low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1)
     _, first, times = np.unique(
         low * len(nodes.points) + high, return_index=True, return_counts=True
@@ -137,7 +137,7 @@ def _front(nodes: Nodes) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
 
 
 def _split_quads(points: NDArray[np.float32], quad: list[NDArray[np.int32]]) -> NDArray[np.int32]:
-    """Two triangles a quad, along the flatter diagonal unless that turns one over."""
+    """Two triangles per quad, along the flatter diagonal unless that flips one of them."""
     p = [points[corner] for corner in quad]
 
     def turned(a: int, b: int, c: int) -> NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""From a normal map to a height map: the one way in, whichever solver does the work."""
+"""Inflation: from a normal map to a height map, with either solver."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from .adam import inflate_adam
 from .direct import inflate_direct
 
 NZ_FLOOR = 0.05
-"""The steepest slope a normal may ask for is 1 / NZ_FLOOR = 20 pixels a pixel: at a rim nz
-goes to 0, and with it all that the normals say about the height there."""
+"""Smallest nz. The steepest slope is 1 / NZ_FLOOR = 20 pixels per pixel: at a rim nz goes to 0,
+and the normals no longer determine the height."""
 
 
 class Solver(Protocol):
-    """Heights (H, W) from usable normals; each connected part up to a constant of its own."""
+    """Heights (H, W) from usable normals; each connected part is known up to a constant."""
 
     def __call__(
         self, normals: NDArray[np.float32], mask: NDArray[np.bool_]
@@ -36,7 +36,7 @@ def solve(
     """Inflate a normal map (paper, section 3.2).
 
     Args:
-        normals: (H, W, 3), x right, y up, z to the viewer; made usable first.
+        normals: (H, W, 3), x right, y up, z to the viewer; passed to ``usable_normals`` first.
         mask: (H, W) bool, True inside the character.
         solver: "direct", the exact minimum on a compact stencil, or "adam", the paper's 500
             steps of gradient descent.
@@ -56,10 +56,10 @@ def solve(
 
 
 def usable_normals(normals: ArrayLike, mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Unit normals that face the viewer by at least ``NZ_FLOOR``, 0 outside the mask.
+    """Unit normals with nz of at least ``NZ_FLOOR``, 0 outside the mask.
 
-    Pixels without a direction (zero or not finite) are told of in a ``LampblackWarning``
-    and take that of the nearest pixel that has one.
+    Pixels without a direction (zero or not finite) take that of the nearest pixel with one, with
+    a ``LampblackWarning``.
 
     Raises:
         ValueError: ``normals`` is not (H, W, 3) or ``mask`` not (H, W).
@@ -94,10 +94,10 @@ def usable_normals(normals: ArrayLike, mask: NDArray[np.bool_]) -> NDArray[np.fl
 
 
 def rest_on_border(height: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Shift every connected part so that its border lies at height 0 on average.
+    """Shift every connected part so that the mean height of its border is 0.
 
-    Where the canvas cuts the character off is no border of the character: such pixels count only
-    in a part that has no others.
+    An edge where the canvas cuts the character off is no border. Such pixels count only in a
+    part that has no other border.
     """
     parts, count = ndimage.label(mask)
     labels = parts[mask]

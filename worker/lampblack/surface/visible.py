@@ -1,4 +1,4 @@
-"""What an orthographic viewer sees of a mesh: the nearest face at the centre of every pixel."""
+"""Rasterisation of a mesh, orthographic: the nearest face at the centre of every pixel."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def visible_faces(
 ) -> VisibleFaces:
     """Project (V, 3) ``vertices``, x and y in pixels, z to the viewer, onto (rows, columns).
 
-    Both sides of a face are seen. Faces that share an edge leave no gap between them.
+    Both sides of a face are visible. Faces that share an edge leave no gap between them.
     """
     face = np.full(size, -1, np.int32)
     u, v = np.zeros(size), np.zeros(size)
