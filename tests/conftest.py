@@ -21,6 +21,8 @@ from support.drawings import draw_ball
 from support.window import missing
 
 TESTS = Path(__file__).parent
+SHARED = ("display", "worker", "child", "pipeline")
+"""Fixtures of the session. Tests that use one go to one process, so that it is made once."""
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -35,11 +37,24 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if folder == "window":
             item.add_marker(pytest.mark.timeout(600))
             item.add_marker(pytest.mark.skipif(bool(lacking), reason=f"missing: {lacking}"))
+        shared = [name for name in SHARED if name in getattr(item, "fixturenames", ())]
+        if shared:
+            item.add_marker(pytest.mark.xdist_group(shared[0]))
 
 
-@pytest.fixture(autouse=True)
-def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+@pytest.fixture(scope="session", autouse=True)
+def user_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """A cache for all tests, that is nobody's: normals of the same drawing are predicted once."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
+@pytest.fixture
+def own_cache(user_cache: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty cache, for a test that cannot share one."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return tmp_path / "cache"
 
 
 @pytest.fixture(scope="session")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
 
@@ -13,12 +11,6 @@ from lampblack.scene import AreaLight, Canvas, Floor
 from support.surfaces import ball
 
 SURFACE: Surface = ball(64, 64, (32, 28), 20, gloss=0.4)
-
-
-@pytest.fixture(scope="module")
-def child() -> Iterator[RenderChild]:
-    with RenderChild() as child:
-        yield child
 
 
 def exposure(subject: str, first: int, count: int, *, develop: bool) -> Expose:

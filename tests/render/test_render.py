@@ -7,8 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -21,13 +19,8 @@ from lampblack.render.quality import QUALITIES, Quality, Sampling
 from lampblack.render.request import RenderRequest
 from lampblack.scene import AreaLight, Canvas, Floor
 from lampblack.surface.relief import Relief
+from support.processes import gone
 from support.surfaces import Heights, ball, plane, surface
-
-
-@pytest.fixture(scope="module")
-def child() -> Iterator[RenderChild]:
-    with RenderChild() as child:
-        yield child
 
 
 def quality(spp: int, scale: float = 1, floor_spp: int = 16) -> Quality:
@@ -276,15 +269,3 @@ time.sleep(60)
         pid = int(parent.stdout.readline())
         parent.kill()
     assert gone(pid, 20)
-
-
-def gone(pid: int, seconds: float) -> bool:
-    """Wait for a process to end."""
-    deadline = time.monotonic() + seconds
-    while time.monotonic() < deadline:
-        try:
-            os.kill(pid, 0)
-        except ProcessLookupError:
-            return True
-        time.sleep(0.05)
-    return False

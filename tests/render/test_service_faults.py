@@ -44,13 +44,6 @@ SIZE = 160
 WHOLE = (0.0, 0.0, float(SIZE), float(SIZE))
 
 
-@pytest.fixture(scope="module")
-def worker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Worker]:
-    folder = tmp_path_factory.mktemp("worker")
-    with Worker(folder, environment={"XDG_CACHE_HOME": str(folder / "cache")}) as worker:
-        yield worker
-
-
 @pytest.fixture
 def client(worker: Worker) -> Iterator[Client]:
     with worker.connect() as client:
