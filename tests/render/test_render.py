@@ -171,7 +171,7 @@ def test_colour_bleeds_onto_the_floor_and_shadow_falls_away_from_the_light(
     assert beside[..., 0].mean() > beside[..., 2].mean() + 0.02
 
 
-def test_floor_leaves_the_figure_below_its_line_alone(child: RenderChild) -> None:
+def test_floor_leaves_the_character_below_its_line_alone(child: RenderChild) -> None:
     canvas = Canvas(64, 64)
     light = AreaLight(32, 10, 60, 20)
     bare = RenderRequest(

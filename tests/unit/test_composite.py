@@ -33,11 +33,11 @@ def make_drawing(background: tuple[int, int, int, int]) -> Drawing:
     albedo = fills[(row > 12).astype(int)]
     ink = np.where(mask, np.clip(1.5 - abs(row - 9), 0, 1), 0).astype(np.float32)
     ink_colour = np.full((HEIGHT, WIDTH, 3), 0.1, np.float32)
-    figure = albedo + ink[..., None] * (ink_colour - albedo)
+    character = albedo + ink[..., None] * (ink_colour - albedo)
     paper = np.array(background, np.float32) / 255
     behind = (1 - coverage[..., None]) * paper[3]
     alpha = coverage[..., None] + behind
-    colour = (coverage[..., None] * figure + behind * paper[:3]) / np.maximum(alpha, 1e-6)
+    colour = (coverage[..., None] * character + behind * paper[:3]) / np.maximum(alpha, 1e-6)
     pixels = np.rint(np.concatenate([colour, alpha], axis=2) * 255).astype(np.uint8)
     palette = Palette(tuple(Swatch(c, int((labels == i).sum())) for i, c in enumerate((RED, BLUE))))
     return Drawing(pixels, mask, coverage, ink, ink, ink_colour, albedo, labels, palette)
@@ -74,7 +74,7 @@ def test_unit_light_gives_the_drawing_back(
 
 
 @pytest.mark.parametrize("background", BACKGROUNDS)
-def test_edge_is_a_blend_of_lit_figure_and_untouched_background(
+def test_edge_is_a_blend_of_lit_character_and_untouched_background(
     background: tuple[int, int, int, int],
 ) -> None:
     drawing = make_drawing(background)
@@ -119,9 +119,9 @@ def test_more_light_is_never_darker() -> None:
     drawing = make_drawing((0, 0, 0, 0))
     ramp = np.repeat(np.linspace(0, 4, WIDTH, dtype=np.float32)[None, :, None], HEIGHT, 0)
     white = replace(drawing, albedo=np.full_like(drawing.albedo, 0.97), ink=drawing.ink * 0)
-    for figure in (white, replace(drawing, ink=drawing.ink * 0)):
+    for character in (white, replace(drawing, ink=drawing.ink * 0)):
         source = LightPasses(np.repeat(ramp, 3, 2), np.zeros((HEIGHT, WIDTH, 3), np.float32))
-        lit = composite(figure, Passes((source,), flat(0)), make_scene(LIGHT))
+        lit = composite(character, Passes((source,), flat(0)), make_scene(LIGHT))
         across = lit[16, 11:25].astype(int)
         assert (np.diff(across, axis=0) >= 0).all()
 

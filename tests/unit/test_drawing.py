@@ -1,4 +1,4 @@
-"""Taking drawings apart: figure, line, fill and palette, on art drawn here by formula."""
+"""Taking drawings apart: character, line, fill and palette, on art drawn here by formula."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ def on_paper(picture: Picture, paper: tuple[int, int, int] = (255, 255, 255)) ->
 
 def recomposed(drawing: Drawing, paper: tuple[int, int, int]) -> NDArray[np.float64]:
     ink, cover = drawing.ink[..., None], drawing.coverage[..., None]
-    figure = ink * drawing.ink_colour + (1 - ink) * drawing.albedo
-    return np.asarray((cover * figure + (1 - cover) * np.array(paper) / 255) * 255)
+    character = ink * drawing.ink_colour + (1 - ink) * drawing.albedo
+    return np.asarray((cover * character + (1 - cover) * np.array(paper) / 255) * 255)
 
 
 def outlined(ink: tuple[int, int, int] = (0, 0, 0), width: float = 5) -> Picture:
@@ -120,11 +120,11 @@ def test_ink_is_the_line_and_leaves_clean_fill_beneath(
 def test_no_fringe_when_the_fill_is_lit_differently() -> None:
     drawing = decompose_drawing(outlined())
     lit = np.array([1, 0, 1], np.float32)
-    figure = drawing.ink[..., None] * drawing.ink_colour + (1 - drawing.ink[..., None]) * lit
+    character = drawing.ink[..., None] * drawing.ink_colour + (1 - drawing.ink[..., None]) * lit
     line = paint((ring(120, 120, 80, 5) | ring(120, 120, 40, 5), (0, 0, 0)))[..., 3] / 255
     body = paint((disc(120, 120, 78), (0, 0, 0)))[..., 3] == 255
     expected = (1 - line)[..., None] * lit
-    assert np.abs(figure - expected)[body].max() < 0.04
+    assert np.abs(character - expected)[body].max() < 0.04
 
 
 def test_whisker_outside_the_body_is_ink() -> None:
@@ -238,7 +238,7 @@ def test_outline_that_cannot_be_closed_warns() -> None:
     assert drawing.mask.any()
 
 
-def test_enclosed_paper_belongs_to_the_figure() -> None:
+def test_enclosed_paper_belongs_to_the_character() -> None:
     art = paint((disc(120, 120, 90), (200, 120, 60)), (disc(150, 100, 20), (255, 255, 255)))
     assert character_mask(on_paper(art))[100, 150]
 

@@ -111,7 +111,7 @@ def test_the_predecessor_sees_no_mask_and_has_its_size() -> None:
 
 
 @pytest.mark.parametrize("shape", [(100, 100), (300, 80), (41, 333), (1, 900)])
-def test_a_figure_lies_in_the_middle_of_the_canvas_it_fills_best(shape: tuple[int, int]) -> None:
+def test_a_character_lies_in_the_middle_of_the_canvas_it_fills_best(shape: tuple[int, int]) -> None:
     canvas = canvas_for(shape, 256)
     assert canvas.shape in canvases(256)
     rows, columns = canvas.inner
@@ -122,7 +122,7 @@ def test_a_figure_lies_in_the_middle_of_the_canvas_it_fills_best(shape: tuple[in
     assert laid.sum() == pytest.approx(laid[canvas.inner].sum())
 
 
-def test_the_figure_network_starts_as_lumo() -> None:
+def test_the_character_network_starts_as_lumo() -> None:
     torch.manual_seed(0)
     mask, _ = ball(300, 120.0)
     card = NetworkCard("figure-net", (256, 256), roundness=1.0)
@@ -144,7 +144,7 @@ def test_every_canvas_counts_the_same_and_quick_sees_the_smallest_alone() -> Non
     assert angles(quick, small)[mask].max() < 0.1
 
 
-def test_a_mirrored_figure_has_mirrored_normals() -> None:
+def test_a_mirrored_character_has_mirrored_normals() -> None:
     rng = np.random.default_rng(0)
     lines = rng.random((210, 143)).astype(np.float32)
     mask = rng.random((210, 143)) < 0.9
@@ -169,8 +169,8 @@ def test_prediction_is_unit_inside_and_faces_the_viewer(architecture: str) -> No
 
 @both_kinds
 @pytest.mark.parametrize("size", [300, 900])
-def test_a_shifted_figure_keeps_its_normals_to_the_bit(architecture: str, size: int) -> None:
-    """Everything is anchored to the figure: no flicker under translation."""
+def test_a_shifted_character_keeps_its_normals_to_the_bit(architecture: str, size: int) -> None:
+    """Everything is anchored to the character: no flicker under translation."""
     small, _ = ball(size, size * 0.4)
     mask = np.zeros((size + 60, size + 60), bool)
     moved = mask.copy()
@@ -219,7 +219,7 @@ def test_shipped_network_rounds_a_ball() -> None:
     assert angles(found, truth)[mask].mean() < 20
 
 
-def test_a_figure_cut_by_the_canvas_is_carried_on_and_a_touching_outline_is_not() -> None:
+def test_a_character_cut_by_the_canvas_is_carried_on_and_a_touching_outline_is_not() -> None:
     mask, _ = ball(420, 190.0)
     rim = (mask & ~erode(mask)).astype(np.float32)
     whole = NormalPredictor().predict(rim, mask)

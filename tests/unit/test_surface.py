@@ -115,7 +115,7 @@ def test_holes_single_pixels_and_empty_masks() -> None:
     assert not solve(normals, np.zeros_like(mask)).any()
 
 
-def test_thin_and_nearly_cut_figures_converge() -> None:
+def test_thin_and_nearly_cut_characters_converge() -> None:
     """A one pixel wide spiral, and a line of rim normals through the middle of a plane."""
     mask = np.zeros((61, 61), bool)
     for ring in range(1, 30, 4):

@@ -25,7 +25,7 @@ Image = NDArray[np.float32]
 SIZE = 200
 
 
-def figure(angle: float = 0.0, shift: tuple[float, float] = (0.0, 0.0)) -> tuple[Image, Image]:
+def character(angle: float = 0.0, shift: tuple[float, float] = (0.0, 0.0)) -> tuple[Image, Image]:
     """Lines and mask of an inked egg with two marks, turned (degrees, anticlockwise) about the
     middle of the picture and then shifted (down, right)."""
     rows, columns = np.mgrid[0:SIZE, 0:SIZE] + 0.5 - SIZE / 2
@@ -60,11 +60,11 @@ def angles(a: Image, b: Image) -> Image:
 def shot(
     noise: float, count: int = 7, step: tuple[float, float] = (0.0, 4.0)
 ) -> list[tuple[Image, NDArray[np.bool_], RegistrationThumbnail]]:
-    """A figure that moves by ``step`` a drawing, each with another smooth error of normals."""
+    """A character that moves by ``step`` a drawing, each with another smooth error of normals."""
     drawings = []
     for index in range(count):
         rng = np.random.default_rng(index)
-        lines, mask = figure(2.0 * index, (step[0] * index, step[1] * index))
+        lines, mask = character(2.0 * index, (step[0] * index, step[1] * index))
         normals = bowl(mask, tuple(noise * rng.standard_normal(2)))
         drawings.append((normals, mask > 0, small(str(index), lines, mask, normals)))
     return drawings
@@ -77,8 +77,8 @@ def neighbours_of(shown: list[RegistrationThumbnail], index: int) -> Neighbours:
 def test_rigid_motion_is_found_to_a_tenth_of_a_cell() -> None:
     turn, shift = 12.0, (9.0, -14.0)
     here, other = (
-        small("a", *figure(), bowl(figure()[1])),
-        small("b", *figure(turn, shift), bowl(figure(turn, shift)[1])),
+        small("a", *character(), bowl(character()[1])),
+        small("b", *character(turn, shift), bowl(character(turn, shift)[1])),
     )
     motion = rigid_motion(here.features, other.features, Motion(here.centre, other.centre), 0)
     assert np.degrees(motion.angle) == pytest.approx(turn, abs=0.2)
@@ -87,7 +87,7 @@ def test_rigid_motion_is_found_to_a_tenth_of_a_cell() -> None:
 
 
 def test_flow_finds_a_smooth_bend() -> None:
-    lines, mask = figure()
+    lines, mask = character()
     here = small("a", lines, mask, bowl(mask)).features
     rows, columns = np.indices(here.shape[1:], np.float32)
     bend = 2.5 * np.sin(rows / 20)
@@ -101,7 +101,7 @@ def test_flow_finds_a_smooth_bend() -> None:
 
 
 def test_canvases_of_other_sizes_are_laid_over_each_other() -> None:
-    lines, mask = figure()
+    lines, mask = character()
     normals = bowl(mask)
     here = small("a", lines, mask, normals)
     margin = ((30, 70), (90, 10))
@@ -118,10 +118,10 @@ def test_canvases_of_other_sizes_are_laid_over_each_other() -> None:
 
 
 def test_normals_turn_with_the_drawing() -> None:
-    lines, mask = figure()
+    lines, mask = character()
     sideways = np.zeros((*mask.shape, 3), np.float32)
     sideways[mask > 0] = [0.6, 0.0, 0.8]
-    turned_lines, turned_mask = figure(30.0)
+    turned_lines, turned_mask = character(30.0)
     cos, sin = np.cos(np.radians(30)), np.sin(np.radians(30))
     turned = np.zeros_like(sideways)
     turned[turned_mask > 0] = [0.6 * cos, 0.6 * sin, 0.8]
@@ -169,7 +169,7 @@ def test_even_change_does_not_lag() -> None:
     """Normals that lean over steadily are where they should be, in the middle of the shot."""
     drawings = []
     for index in range(5):
-        lines, mask = figure(0, (0, 3.0 * index))
+        lines, mask = character(0, (0, 3.0 * index))
         normals = bowl(mask, (0.08 * (index - 2), 0))
         drawings.append((normals, mask > 0, small(str(index), lines, mask, normals)))
     normals, mask, here = drawings[2]
@@ -191,8 +191,8 @@ def test_a_cut_takes_nothing_over() -> None:
 
 
 def test_what_enters_disturbs_nothing_else() -> None:
-    """A second figure comes in: it and the first keep their normals."""
-    lines, mask = figure(0, (0, -40))
+    """A second character comes in: it and the first keep their normals."""
+    lines, mask = character(0, (0, -40))
     normals = bowl(mask)
     here = small("one", lines, mask, normals)
     ball = np.hypot(*(np.mgrid[0:SIZE, 0:SIZE] - np.array([100, 170])[:, None, None])) < 18

@@ -91,7 +91,7 @@ def _enclosed(drawn: Mask) -> Mask:
     mask = ~outside_of(drawn, line_art=True)
     if MIN_CHARACTER <= np.count_nonzero(mask) < 1.5 * np.count_nonzero(drawn):
         warnings.warn(
-            "The outline is not closed, so there is nothing within the lines to light; "
+            "The outline is not closed, so there is nothing inside the lines to light; "
             "close its gaps, or give a mask.",
             LampblackWarning,
             stacklevel=2,

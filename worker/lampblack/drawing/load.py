@@ -39,7 +39,7 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
         raise DrawingError(f"{path} is a folder, not a picture.", "Name a PNG file.") from error
     except PermissionError as error:
         raise DrawingError(
-            f"{path} may not be read.", "Check the file's permissions.", str(error)
+            f"There is no permission to read {path}.", "Check the file's permissions.", str(error)
         ) from error
 
 

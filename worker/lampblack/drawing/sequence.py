@@ -114,12 +114,12 @@ def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[
     if not chosen:
         there = [frame.number for frame in frames if frame.number is not None]
         span = f"from {min(there)} to {max(there)}" if there else "without numbers"
-        raise DrawingError("None of the frames asked for is there.", f"The frames are {span}.")
+        raise DrawingError("None of the requested frames exists.", f"The frames are {span}.")
     missing = sorted(wanted - {frame.number for frame in chosen})
     if missing:
         named = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
         warnings.warn(
-            f"{len(missing)} of the frames asked for are not there: {named}.",
+            f"{len(missing)} of the requested frames do not exist: {named}.",
             LampblackWarning,
             stacklevel=2,
         )

@@ -55,7 +55,8 @@ def parse_stack(xml: bytes, name: str) -> Project:
     if blended:
         named = ", ".join(map(repr, sorted(blended)[:8]))
         warnings.warn(
-            f"{name}: {named} are blended in ways of their own; here they lie over what is below.",
+            f"{name}: {named} have blend modes that Lampblack does not know; they are shown as "
+            "if they had none.",
             LampblackWarning,
             stacklevel=2,
         )

@@ -93,7 +93,8 @@ def _camera(element: Element) -> Camera:
         keys[key.frame] = key
         if len(keys) > 1 and moved.get("easing", "0") != "0":
             warnings.warn(
-                f"The camera {name!r} eases; here it moves evenly between its keys.",
+                f"The camera {name!r} has easing, which Lampblack does not know; it moves at a "
+                "constant speed between its keys.",
                 LampblackWarning,
                 stacklevel=2,
             )

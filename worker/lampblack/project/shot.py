@@ -133,7 +133,7 @@ def _region(camera: Camera, length: int) -> Region:
         raise ProjectError(
             f"The camera sees {width} x {height} pixels of the canvas over all frames.",
             f"At most {MAX_PIXELS // 1_000_000} megapixels are lit: move the camera less, or "
-            "render parts of the project under cameras of their own.",
+            "render the project in parts, each with its own camera.",
         )
     return Region(int(left), int(top), width, height)
 

@@ -59,7 +59,7 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
     ]
     if not lit:
         raise ProjectError(
-            "None of the project's visible layers is to be lit.",
+            "None of the visible layers of the project is lit.",
             "Name one with --character, or show it in Pencil2D.",
             f"Layers: {_names(project)}",
         )

@@ -54,8 +54,9 @@ class VectorPictures:
         program = shutil.which(PROGRAM)
         if program is None:
             raise ProjectError(
-                f"The layer {layer.name!r} is drawn in vectors, which takes Pencil2D to draw.",
-                "Install it (on Debian: apt-get install pencil2d), or leave the layer out: "
+                f"{layer.name!r} is a vector layer. Only Pencil2D can draw it, and Pencil2D is not "
+                "installed.",
+                "Install Pencil2D (on Debian: apt-get install pencil2d), or leave the layer out: "
                 f'--background "{layer.name}", or hide it.',
             )
         folder = Path(tempfile.mkdtemp(prefix="lampblack-vector-"))

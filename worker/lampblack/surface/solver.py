@@ -73,8 +73,8 @@ def usable_normals(normals: ArrayLike, mask: NDArray[np.bool_]) -> NDArray[np.fl
     lost = mask & ~good
     if lost.any():
         warnings.warn(
-            f"{np.count_nonzero(lost)} pixels of the normal map hold no direction; "
-            "the surface is carried across them.",
+            f"{np.count_nonzero(lost)} pixels of the normal map have no direction; "
+            "they take that of their neighbours.",
             LampblackWarning,
             stacklevel=3,
         )
