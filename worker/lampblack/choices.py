@@ -1,5 +1,6 @@
 """Choices and defaults that scenes, render settings and the command line share."""
 
+from dataclasses import dataclass
 from typing import Literal
 
 QualityName = Literal["low", "medium", "final"]
@@ -16,3 +17,12 @@ LayerRole = Literal["character", "line", "background"]
 
 DEFAULT_GRIDS = 0
 """Grids of tiles whose predicted normals are averaged; 0 predicts the whole character at once."""
+
+
+@dataclass(frozen=True)
+class PipelineOptions:
+    """How surfaces are made, whatever the light: ``grids`` of tiles are averaged, and
+    ``solver`` inflates the normals."""
+
+    grids: int = DEFAULT_GRIDS
+    solver: SolverName = "direct"

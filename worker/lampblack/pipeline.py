@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from types import TracebackType
 from typing import Self
@@ -13,7 +13,7 @@ import torch
 from numpy.typing import NDArray
 
 from .cache import ArrayCache, digest
-from .choices import DEFAULT_GRIDS, SolverName
+from .choices import PipelineOptions
 from .composite import composite
 from .drawing import Drawing
 from .normals.predict import NormalPredictor
@@ -33,15 +33,6 @@ from .surface import Relief, build_relief, guided_filter, solve
 
 MAX_SURFACE_PX = 2048
 """Longest side at which a surface is solved; larger pictures are lit at this size."""
-
-
-@dataclass(frozen=True)
-class PipelineOptions:
-    """How surfaces are made, whatever the light: ``grids`` of tiles are averaged, and
-    ``solver`` inflates the normals."""
-
-    grids: int = DEFAULT_GRIDS
-    solver: SolverName = "direct"
 
 
 class Pipeline:

@@ -40,9 +40,10 @@ def normals(
 
     from ..atomic import atomic_file
     from ..cache import surface_cache
+    from ..choices import PipelineOptions
     from ..drawing import save_picture
     from ..finals.neighbours import NeighbourLoader
-    from ..pipeline import Pipeline, PipelineOptions
+    from ..pipeline import Pipeline
     from ..shot import by_drawing
 
     shot, targets = _resolve(settings, output, "png", "npy")
@@ -88,8 +89,9 @@ def mesh(
     Example: lampblack mesh hero.png -o hero.glb
     """
     from ..cache import surface_cache
+    from ..choices import PipelineOptions
     from ..finals.neighbours import NeighbourLoader
-    from ..pipeline import Pipeline, PipelineOptions
+    from ..pipeline import Pipeline
     from ..shot import by_drawing
     from ..surface import save_mesh
 

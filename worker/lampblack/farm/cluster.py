@@ -18,11 +18,12 @@ from urllib.parse import urlsplit
 import msgspec
 
 from ..cache import surface_cache
+from ..choices import PipelineOptions
 from ..errors import LampblackError, OutputError
 from ..finals.light import Listener, Outcome, light_frames
 from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.settings import RenderSettings
-from ..pipeline import Pipeline, PipelineOptions
+from ..pipeline import Pipeline
 from ..shot import ShotFrame, by_drawing
 
 CONNECT_SECONDS = 30

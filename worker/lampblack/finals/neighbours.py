@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 from ..drawing import Drawing, decompose_drawing
 from ..errors import LampblackError
-from ..normals.temporal.neighbours import NeighbourKeys, neighbour_keys
-from ..normals.temporal.temporal_filter import REACH, LazyNeighbours, Neighbours
+from ..normals.temporal.neighbours import REACH, NeighbourKeys, neighbour_keys
+from ..normals.temporal.temporal_filter import LazyNeighbours, Neighbours
 from ..normals.temporal.thumbnail import RegistrationThumbnail
 from ..pipeline import Pipeline
 from ..shot import Shot, ShotFrame

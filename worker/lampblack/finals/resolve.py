@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..choices import PipelineOptions
 from ..drawing import find_frames, load_picture, parse_frames, select_frames
 from ..errors import LampblackError
-from ..normals.temporal.temporal_filter import REACH
-from ..pipeline import PipelineOptions
+from ..normals.temporal.neighbours import REACH
 from ..project import is_project, read_project
 from ..project.shot import ProjectShot
 from ..project.stack import roles_of

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import __version__
 from ..drawing import parse_frames
-from ..normals.temporal.neighbours import neighbour_keys
-from ..normals.temporal.temporal_filter import REACH
+from ..normals.temporal.neighbours import REACH, neighbour_keys
 from ..protocol import (
     MINOR,
     Bye,

@@ -6,8 +6,8 @@ from collections import OrderedDict
 from collections.abc import Callable
 
 from ..errors import LampblackError
-from ..normals.temporal.neighbours import NeighbourKeys
-from ..normals.temporal.temporal_filter import REACH, LazyNeighbours, Neighbours
+from ..normals.temporal.neighbours import REACH, NeighbourKeys
+from ..normals.temporal.temporal_filter import LazyNeighbours, Neighbours
 from ..normals.temporal.thumbnail import RegistrationThumbnail
 from ..pipeline import Pipeline
 from .model import Planes, take_planes_apart

@@ -22,7 +22,8 @@ from lampblack.errors import LampblackError
 from lampblack.finals.resolve import resolve_shot
 from lampblack.finals.settings import RenderSettings
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.temporal.temporal_filter import REACH, Neighbours, TemporalFilter
+from lampblack.normals.temporal.neighbours import REACH
+from lampblack.normals.temporal.temporal_filter import Neighbours, TemporalFilter
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail
 from lampblack.pipeline import Pipeline
 

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.temporal.temporal_filter import REACH, Neighbours, TemporalFilter
+from lampblack.normals.temporal.neighbours import REACH
+from lampblack.normals.temporal.temporal_filter import Neighbours, TemporalFilter
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 
 from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
+REACH = 2
+"""Number of neighbours on either side."""
+
 NeighbourKeys = tuple[tuple[str, ...], tuple[str, ...]]
 """Names of the drawings before and after, each nearest first."""
 

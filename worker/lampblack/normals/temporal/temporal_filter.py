@@ -16,14 +16,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from .neighbours import NeighbourKeys
+from .neighbours import REACH, NeighbourKeys
 from .registration import Registration, places_in, registration
 from .sample import sampled
 from .thumbnail import RegistrationThumbnail
 from .window import Planes
 
-REACH = 2
-"""Number of neighbours on either side."""
 _KEPT = 16
 
 
