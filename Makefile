@@ -1,12 +1,15 @@
 # make demo: light the example. make pencil2d [PROJECT=file.pclx]: open Pencil2D with the lamp tool.
-# make test: check everything. Each installs first what it needs.
-.PHONY: demo pencil2d install uninstall test test-slow check format tidy environment plugin schema clean
+# make test: check everything. Each installs first what it needs, in the versions of requirements/.
+# make lock: renew those. make test-newest: check everything with the newest versions instead.
+.PHONY: demo pencil2d install uninstall test test-newest test-slow check format tidy environment lock plugin schema clean
 
-BIN := .venv/bin
+VENV ?= .venv
+BIN := $(VENV)/bin
 OUT ?= out/demo
 SHEET ?= out/demo.png
 PROJECT ?=
 PYTHON_OF_WORKER := $(abspath $(BIN)/python)
+export VENV
 
 ifneq ($(DISPLAY)$(WAYLAND_DISPLAY),)
 # A copy, so that trying things out leaves the example as it is.
@@ -39,6 +42,9 @@ test: check
 	ctest --preset asan -R '^(codec_vectors|codec_fuzz|planes)$$'
 	$(BIN)/pytest -m "not slow"
 
+test-newest:
+	NEWEST=1 $(MAKE) test VENV=build/newest
+
 test-slow: test
 	$(BIN)/pytest -m slow
 
@@ -58,6 +64,9 @@ format: environment
 tidy:
 	cmake --preset dev
 	clang-tidy --quiet -p build/dev $$(git ls-files 'pencil2d_plugin/*.cpp')
+
+lock:
+	scripts/lock.sh
 
 environment:
 	@scripts/environment.sh

@@ -1,10 +1,13 @@
 #!/bin/sh
 # Install what Lampblack needs and this machine lacks: system libraries (Debian), and a virtual
-# environment in .venv. Run again at will: what is there is left alone.
+# environment. Run again at will: what is there is left alone.
 #
 #   environment.sh            the worker and its command line
 #   environment.sh plugin     also Pencil2D and what builds the plugin
 #   environment.sh test       also a virtual display and what drives it
+#
+# VENV names the environment, .venv unless set. Its packages have the versions of requirements/
+# (scripts/lock.sh), or with NEWEST=1 the newest that pyproject.toml admits.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -16,7 +19,8 @@ case "${1:-}" in
     test) PACKAGES="$PACKAGES $PLUGIN $TEST" ;;
 esac
 PYTHON=${PYTHON:-$(command -v python3.11 || command -v python3 || true)}
-STAMP=.venv/installed
+VENV=${VENV:-.venv}
+STAMP=$VENV/installed
 
 fail() {
     echo "error: $1" >&2
@@ -25,7 +29,8 @@ fail() {
 }
 
 [ -n "$PYTHON" ] || fail "Python is missing." "On Debian 12: apt-get install python3 python3-venv"
-"$PYTHON" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' ||
+LOCK=requirements/python$("$PYTHON" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+[ -f "$LOCK.txt" ] ||
     fail "$PYTHON is not Python 3.11, which Blender's module needs." "Name one: make PYTHON=/path/to/python3.11"
 
 if command -v dpkg-query >/dev/null; then
@@ -46,9 +51,17 @@ if command -v dpkg-query >/dev/null; then
     fi
 fi
 
-wanted=$(cat pyproject.toml scripts/environment.sh | cksum)
+wanted=$(cat pyproject.toml scripts/environment.sh "$LOCK.txt" "$LOCK-torch.txt" | cksum)
+[ -z "${NEWEST:-}" ] || wanted="newest of $(date +%F), $wanted"
 [ -f "$STAMP" ] && [ "$(cat "$STAMP")" = "$wanted" ] && exit 0
-"$PYTHON" -m venv .venv ||
+"$PYTHON" -m venv "$VENV" ||
     fail "The virtual environment could not be made." "On Debian 12: apt-get install python3-venv"
-.venv/bin/pip install --disable-pip-version-check -e '.[dev]'
+install() { "$VENV/bin/pip" install --disable-pip-version-check "$@"; }
+if [ -n "${NEWEST:-}" ]; then
+    install --upgrade --upgrade-strategy eager -e '.[dev]'
+else
+    install --require-hashes --no-deps -r "$LOCK.txt"
+    install -c "$LOCK-torch.txt" torch
+    install --no-deps --no-build-isolation -e .
+fi
 echo "$wanted" >"$STAMP"
