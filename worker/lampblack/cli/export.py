@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from ..finals.settings import RenderSettings
-from .options import check_suffix, keep_inputs, with_settings
+from .options import with_settings
+from .outputs import check_suffix, keep_inputs
 
 
 @with_settings(
@@ -37,5 +38,5 @@ def export(
     check_suffix(output, *SUFFIXES)
     keep_inputs(output, settings.inputs)
     with Pipeline(surface_cache()) as pipeline:
-        staged = first_frame(resolve_shot(settings), pipeline)
-        save_scene(pipeline, staged.drawing, staged.scene, output, staged.neighbours)
+        shown = first_frame(resolve_shot(settings), pipeline)
+        save_scene(pipeline, shown.drawing, shown.scene, output, shown.neighbours)

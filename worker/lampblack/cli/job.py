@@ -12,7 +12,8 @@ import typer
 from ..atomic import atomic_file
 from ..finals.settings import RenderSettings
 from .console import say
-from .options import check_suffix, with_settings
+from .options import with_settings
+from .outputs import check_suffix
 
 
 @with_settings(

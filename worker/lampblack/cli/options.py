@@ -1,11 +1,10 @@
-"""The options of render settings, written once for all commands, and checks of output files."""
+"""The options of render settings, written once for all commands."""
 
 from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Iterable
-from pathlib import Path
+from collections.abc import Callable
 from typing import Annotated, Any, Concatenate, ParamSpec, get_args, get_type_hints
 
 import msgspec
@@ -160,19 +159,3 @@ def _settings(given: dict[str, Any]) -> RenderSettings:
         given["frames"] = str(frame)
     named = {name: value for name, value in given.items() if value is not None}
     return msgspec.convert({"inputs": (), "output": "", "roles": roles} | named, RenderSettings)
-
-
-def keep_inputs(output: Path, inputs: Iterable[str | Path | None]) -> None:
-    """Refuse an output that would replace one of the inputs."""
-    given = [Path(path) for path in inputs if path is not None]
-    if output.exists() and any(path.exists() and path.samefile(output) for path in given):
-        raise LampblackError(f"{output} is one of the inputs; it would be lost.", "Choose another.")
-
-
-def check_suffix(path: Path, *suffixes: str) -> None:
-    """Refuse an output whose file format is unknown, before any work is done."""
-    if path.suffix.lower() not in suffixes:
-        raise LampblackError(
-            f"{path} is not of a file format that can be written here.",
-            f"Known: {', '.join(suffixes)}.",
-        )

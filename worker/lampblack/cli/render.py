@@ -10,7 +10,8 @@ import typer
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
 from .console import EXIT_FAILED, EXIT_UNLIT, print_error, progress_bar, say
-from .options import OPTIONS, check_suffix, keep_inputs, with_settings
+from .options import OPTIONS, with_settings
+from .outputs import check_suffix, keep_inputs
 
 if TYPE_CHECKING:
     from ..finals.light import Outcome

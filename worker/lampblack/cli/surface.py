@@ -9,7 +9,8 @@ import typer
 
 from ..finals.settings import RenderSettings
 from .drawings import each_drawing
-from .options import check_suffix, keep_inputs, with_settings
+from .options import with_settings
+from .outputs import check_suffix, keep_inputs
 
 if TYPE_CHECKING:
     from ..finals.resolve import ResolvedShot

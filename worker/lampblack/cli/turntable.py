@@ -10,7 +10,8 @@ import typer
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
 from .console import progress_bar
-from .options import check_suffix, keep_inputs, with_settings
+from .options import with_settings
+from .outputs import check_suffix, keep_inputs
 
 
 @with_settings("input", "frame", "scene", "character", "line", "steady", "mask", "ink")
@@ -55,10 +56,8 @@ def turntable(
     shot = resolve_shot(settings)
     with Pipeline(surface_cache()) as pipeline, progress_bar() as bar:
         pipeline.child.start()
-        staged = first_frame(shot, pipeline)
-        turned = turn_table(
-            pipeline, staged.drawing, staged.scene, pictures, size, staged.neighbours
-        )
+        shown = first_frame(shot, pipeline)
+        turned = turn_table(pipeline, shown.drawing, shown.scene, pictures, size, shown.neighbours)
         loop = list(bar.track(turned, total=pictures, description="Turning"))
     if animated:
         save_gif(output, loop)
@@ -71,5 +70,5 @@ def turntable(
         ) from error
     for number, picture in enumerate(loop, start=1):
         opaque = np.full((*picture.shape[:2], 1), 255, np.uint8)
-        name = f"{Path(staged.frame.name).stem}.turn.{number:04d}.png"
+        name = f"{Path(shown.frame.name).stem}.turn.{number:04d}.png"
         save_picture(output / name, np.concatenate([picture, opaque], axis=2))

@@ -40,7 +40,7 @@ class Certificates:
 
 def light_on_cluster(
     settings: RenderSettings,
-    opened: ResolvedJob,
+    job: ResolvedJob,
     address: str,
     certificates: Certificates,
     listener: Listener = lambda frame, error: None,
@@ -74,7 +74,7 @@ def light_on_cluster(
             str(error),
         ) from error
     with client:
-        groups = by_drawing(opened.frames)
+        groups = by_drawing(job.frames)
         futures: dict[Any, list[ShotFrame]] = {
             client.submit(
                 light_group, settings_json, run, [f.name for f in group], pure=False
@@ -112,23 +112,23 @@ def light_group(
     ``run`` names one call of ``light_on_cluster``: between two, drawings may have changed.
     """
     with _ONE_AT_A_TIME:
-        opened = _opened(settings_json, run)
-        pipeline = _warm_pipeline(opened.options)
-        wanted = [frame for frame in opened.frames if frame.name in set(names)]
-        outcome = light_frames(opened, pipeline, wanted)
+        job = _resolved(settings_json, run)
+        pipeline = _warm_pipeline(job.options)
+        wanted = [frame for frame in job.frames if frame.name in set(names)]
+        outcome = light_frames(job, pipeline, wanted)
     failed = {frame.name: error for frame, error in outcome.failed}
     kept = {frame.name for frame in outcome.kept}
     unlit = {frame.name for frame in outcome.unlit}
-    told = []
+    report = []
     for frame in wanted:
         error = failed.get(frame.name)
         if error is not None:
             kind = "full" if isinstance(error, OutputError) else "failed"
-            told.append((frame.name, kind, [error.what, error.remedy, error.details]))
+            report.append((frame.name, kind, [error.what, error.remedy, error.details]))
         else:
             became = "kept" if frame.name in kept else "unlit" if frame.name in unlit else "done"
-            told.append((frame.name, became, []))
-    return told
+            report.append((frame.name, became, []))
+    return report
 
 
 _ONE_AT_A_TIME = threading.Lock()
@@ -138,7 +138,7 @@ _pipelines: list[Pipeline] = []
 
 
 @functools.lru_cache(maxsize=1)
-def _opened(settings_json: bytes, run: str) -> ResolvedJob:
+def _resolved(settings_json: bytes, run: str) -> ResolvedJob:
     return resolve_job(msgspec.json.decode(settings_json, type=RenderSettings))
 
 
@@ -154,15 +154,15 @@ def _warm_pipeline(options: PipelineOptions) -> Pipeline:
 def _take_in(outcome: Outcome, group: list[ShotFrame], future: Any, listener: Listener) -> None:
     by_name = {frame.name: frame for frame in group}
     try:
-        told = future.result()
+        report = future.result()
     except Exception as error:  # whatever went wrong over there
         lost = LampblackError(
             "The cluster could not light this frame.",
             "Run it again; what was finished is kept.",
             repr(error),
         )
-        told = [(frame.name, "failed", [lost.what, lost.remedy, lost.details]) for frame in group]
-    for name, became, words in told:
+        report = [(frame.name, "failed", [lost.what, lost.remedy, lost.details]) for frame in group]
+    for name, became, words in report:
         frame = by_name[name]
         if words:
             kind = OutputError if became == "full" else LampblackError

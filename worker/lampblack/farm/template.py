@@ -35,7 +35,7 @@ def job_template(
     named = {name: "{{Param." + name + "}}" for name in paths}
     replaced: dict[str, Any] = {"inputs": (named["Input"],), "output": named["Output"]}
     replaced |= {n.lower(): named[n] for n in ("Scene", "Mask", "Ink") if n in named}
-    told = msgspec.structs.replace(settings, frames="{{Task.Param.Frames}}", **replaced)
+    task = msgspec.structs.replace(settings, frames="{{Task.Param.Frames}}", **replaced)
     parameters.append(
         {"name": "Lampblack", "type": "STRING", "default": "lampblack",
          "description": "The command, on the machines that render."}
@@ -57,7 +57,7 @@ def job_template(
                     "actions": {
                         "onRun": {
                             "command": "{{Param.Lampblack}}",
-                            "args": ["render", *told.arguments(), "--allow-blank"],
+                            "args": ["render", *task.arguments(), "--allow-blank"],
                             "cancelation": {"mode": "NOTIFY_THEN_TERMINATE"},
                         }
                     }

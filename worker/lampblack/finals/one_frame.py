@@ -25,18 +25,18 @@ class OneFrame:
     neighbours: LazyNeighbours | None
 
 
-def first_frame(opened: ResolvedShot, pipeline: Pipeline) -> OneFrame:
-    """Stage the first frame that was asked for.
+def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
+    """Prepare the first frame that was asked for.
 
     Raises:
         LampblackError: there is none, or its drawing cannot be used.
     """
-    if not opened.frames:
+    if not resolved.frames:
         raise LampblackError("There is no such frame.", "See which ones the input has.")
-    frame = opened.frames[0]
-    neighbour_loader = NeighbourLoader(opened.shot, pipeline, opened.reach)
+    frame = resolved.frames[0]
+    neighbour_loader = NeighbourLoader(resolved.shot, pipeline, resolved.reach)
     drawing = neighbour_loader.drawing(frame)
-    canvas = opened.shot.canvas or Canvas(*drawing.size)
-    scene = scene_at(opened.overrides.scene(canvas), frame.number or 1)
-    placed = opened.shot.place(scene, drawing.size)
+    canvas = resolved.shot.canvas or Canvas(*drawing.size)
+    scene = scene_at(resolved.overrides.scene(canvas), frame.number or 1)
+    placed = resolved.shot.place(scene, drawing.size)
     return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame))

@@ -29,10 +29,10 @@ class ResolvedShot:
 
     Attributes:
         frames: those that the settings name, of the shot's.
-        overrides: how they are lit.
+        overrides: the scene file, and what replaces parts of it.
         sources: the files that are read.
         single: the shot is a single drawing, not one of many.
-        reach: drawings to either side of each that its normals follow.
+        reach: neighbours on either side that normals are smoothed over.
     """
 
     shot: Shot
@@ -103,7 +103,7 @@ def _project_shot(settings: RenderSettings, scene: Scene | None) -> ProjectShot:
         )
     if settings.mask is not None or settings.ink is not None:
         raise LampblackError(
-            "In a project, layers say what is figure and what is line.",
+            "In a project, layers say what is character and what is line.",
             "Leave out --mask and --ink, or name a layer: --line LAYER.",
         )
     project, archive = read_project(settings.inputs[0])

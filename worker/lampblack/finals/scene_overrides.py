@@ -36,7 +36,7 @@ class SceneOverrides:
     quality: QualityName | None = None
 
     def __post_init__(self) -> None:
-        lights_at(self.lights, Canvas(1, 1))  # what is mistyped is told before any work
+        lights_at(self.lights, Canvas(1, 1))  # mistakes are reported before any work
         if self.floor is not None:
             floor_at(self.floor)
 

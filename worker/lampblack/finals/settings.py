@@ -26,8 +26,8 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         solver: how normals become a surface.
         roles: of a project's layers, by name; over those in the scene.
         camera: a project's layer; None is the first camera.
-        steady: normals follow those of the drawings beside each.
-        again: make also what is there already and up to date.
+        steady: normals are smoothed over neighbouring drawings.
+        again: render also frames whose files are up to date.
     """
 
     inputs: tuple[str, ...]

@@ -23,11 +23,11 @@ class Targets:
 
     Args:
         output: as it was named.
-        kind: of the files; None goes by the pattern's suffix, else the first of ``kinds``.
-        kinds: that can be written, as suffixes.
+        kind: file format; None takes it from the pattern's suffix, else the first of ``kinds``.
+        kinds: file formats that can be written, as suffixes.
 
     Raises:
-        LampblackError: the pattern's suffix is of no kind that can be written, or not ``kind``.
+        LampblackError: the pattern's suffix is none of ``kinds``, or not ``kind``.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class Targets:
         named = suffix in kinds and not self._path.is_dir()
         if number and not named:
             raise LampblackError(
-                f"{output} is of no kind that can be written here.",
+                f"{output} is not of a file format that can be written here.",
                 f"Name a folder, or files that end in {' or '.join(f'.{kind}' for kind in kinds)}.",
             )
         if len(number) > 1:
