@@ -11,28 +11,26 @@ import pytest
 
 from lampblack.camera import IDENTITY, scene_in_view
 from lampblack.composite.sheet import premultiplied
+from lampblack.drawing import DrawingPlanes
 from lampblack.errors import LampblackWarning
 from lampblack.pipeline import Pipeline
-from lampblack.protocol import frame_digest
-from lampblack.scene import Floor, Material, default_scene
-from lampblack.service.bounded import BoundedStore
-from lampblack.service.model import Model, coarse_model
-from lampblack.service.noticed import listen, noticed_warnings
+from lampblack.preview import PreparedDrawing, Viewport, ViewRequest, prepare_quick
+from lampblack.preview.bounded import BoundedStore
+from lampblack.preview.contribution import LightContribution
+from lampblack.preview.light_store import AccumulatedLight, LightStore
+from lampblack.scene import Floor, Material, Scene, default_scene
 from lampblack.service.outbox import MAX_WAITING, Outbox
-from lampblack.service.snapshot import Look, Snapshot
-from lampblack.service.source import sources_of
-from lampblack.service.studio import Developed, LightStore
 from lampblack.surface import check_relief
+from lampblack.warning_collector import collect_warnings, install_warning_collector
 from support.drawings import draw_ball
 
 SIZE = 160
-LOOK = Look(1, 1, "lit", (0.0, 0.0, float(SIZE), float(SIZE)), (SIZE, SIZE))
+VIEWPORT = Viewport(1, 1, "lit", (0.0, 0.0, float(SIZE), float(SIZE)), (SIZE, SIZE))
 
 
 @pytest.fixture(scope="module")
-def model(pipeline: Pipeline) -> Model:
-    planes = {"pixels": draw_ball(SIZE)}
-    return coarse_model(frame_digest(planes), planes, pipeline)  # type: ignore[arg-type]
+def drawing(pipeline: Pipeline) -> PreparedDrawing:
+    return prepare_quick("ball", DrawingPlanes(draw_ball(SIZE)), pipeline)
 
 
 def test_the_least_lately_used_goes_first() -> None:
@@ -69,14 +67,14 @@ def test_warnings_are_heard_by_their_own_thread_alone() -> None:
     barrier = threading.Barrier(2)
 
     def warn(sentence: str) -> None:
-        with noticed_warnings() as noticed:
+        with collect_warnings() as found:
             barrier.wait()
             warnings.warn(sentence, LampblackWarning, stacklevel=1)
             barrier.wait()
-        heard[sentence] = noticed
+        heard[sentence] = found
 
     with warnings.catch_warnings():
-        listen()
+        install_warning_collector()
         threads = [threading.Thread(target=warn, args=(word,)) for word in ("one", "two")]
         for thread in threads:
             thread.start()
@@ -85,25 +83,25 @@ def test_warnings_are_heard_by_their_own_thread_alone() -> None:
     assert heard == {"one": ["one"], "two": ["two"]}
 
 
-def test_a_coarse_model_is_a_closed_dome_in_register(model: Model) -> None:
-    relief = model.surface(default_scene(SIZE, SIZE)).relief
+def test_a_quick_drawing_is_a_closed_dome_in_register(drawing: PreparedDrawing) -> None:
+    relief = drawing.surface(default_scene(SIZE, SIZE)).relief
     assert check_relief(relief) == []
     x, y, z = relief.vertices[: len(relief.vertices) // 2].T
     assert abs(x.mean() - SIZE / 2) < 1
     assert abs(y.mean() - SIZE / 2) < 1
     assert z[np.hypot(x - 80, y - 80) < 8].mean() == pytest.approx(64, rel=0.3)
-    left, top, width, height = model.box
+    left, top, width, height = drawing.box
     assert left < 17 < 143 < left + width
     assert top < 17 < 143 < top + height
 
 
-def test_a_coarse_model_knows_the_lines(pipeline: Pipeline) -> None:
+def test_a_quick_drawing_knows_the_lines(pipeline: Pipeline) -> None:
     """What is shown first is no mere dome: it is predicted, like what follows."""
     plain = draw_ball(SIZE)
     split = plain.copy()
     split[78:82, 30:130] = 0, 0, 0, 255
     one, other = (
-        coarse_model("", {"pixels": pixels}, pipeline).normals.astype(int)
+        prepare_quick("", DrawingPlanes(pixels), pipeline).normals.astype(int)
         for pixels in (plain, split)
     )
     assert one.shape == other.shape
@@ -122,42 +120,44 @@ def test_the_camera_takes_the_scene_along() -> None:
     assert seen.canvas.default_height == 2 * scene.canvas.default_height
 
 
-def test_a_change_invalidates_exactly_what_it_shapes(model: Model) -> None:
+def test_a_change_invalidates_exactly_what_it_shapes(drawing: PreparedDrawing) -> None:
     scene = default_scene(SIZE, SIZE)
     scene = replace(scene, lights=(scene.lights[0], replace(scene.lights[0], x=100.0)))
-    colour = model.sheet.palette.swatches[0].colour
+    colour = drawing.sheet.palette.swatches[0].colour
     shiny = {colour: Material(glossy=True, gloss=0.4)}
     scene = replace(scene, materials=shiny)
     store = LightStore()
     light = np.zeros((2, 2, 3), np.float32)
 
-    def sources(changed: object) -> tuple[object, ...]:
-        return sources_of(Snapshot("", LOOK, model.digest, IDENTITY, 1, changed), model)  # type: ignore[arg-type]
+    def contributions(changed: Scene) -> tuple[LightContribution, ...]:
+        view = ViewRequest("", VIEWPORT, "ball", IDENTITY, 1, changed).resolve(drawing)
+        assert view is not None
+        return view.contributions
 
-    for source in sources(scene):
-        store.put(source, Developed(2, 8, source.amounts, light, light))  # type: ignore[attr-defined,arg-type]
+    for contribution in contributions(scene):
+        store.put(contribution, AccumulatedLight(2, 8, contribution.amounts, light, light))
 
-    def rungs(changed: object) -> list[int]:
-        return [store.rung(source) for source in sources(changed)]  # type: ignore[arg-type]
+    def levels(changed: Scene) -> list[int]:
+        return [store.level(contribution) for contribution in contributions(changed)]
 
     first, second = scene.lights
-    assert rungs(scene) == [2, 2, 2]
-    assert rungs(replace(scene, lights=(replace(first, colour="#ff0000", power=3.0), second))) == [
+    assert levels(scene) == [2, 2, 2]
+    assert levels(replace(scene, lights=(replace(first, colour="#ff0000", power=3.0), second))) == [
         2,
         2,
         2,
     ]
-    assert rungs(replace(scene, lights=(replace(first, x=5.0), second))) == [-1, 2, 2]
-    assert rungs(replace(scene, lights=(second, first))) == [2, 2, 2]
-    assert rungs(replace(scene, lights=(first, replace(second, power=0.0)))) == [2, 2]
+    assert levels(replace(scene, lights=(replace(first, x=5.0), second))) == [-1, 2, 2]
+    assert levels(replace(scene, lights=(second, first))) == [2, 2, 2]
+    assert levels(replace(scene, lights=(first, replace(second, power=0.0)))) == [2, 2]
     softer = {colour: Material(glossy=True, gloss=0.5)}
-    assert rungs(replace(scene, materials=softer)) == [0, 0, 0]
+    assert levels(replace(scene, materials=softer)) == [0, 0, 0]
     rougher = {colour: Material(glossy=True, gloss=0.4, roughness=0.9)}
-    assert rungs(replace(scene, materials=rougher)) == [-1, -1, -1]
-    assert rungs(replace(scene, relief_scale=2.0)) == [-1, -1, -1]
-    assert rungs(replace(scene, floor=Floor(150.0))) == [-1] * 6
-    store.keep(sources(replace(scene, lights=(first,))))  # type: ignore[arg-type]
-    assert rungs(scene) == [2, -1, 2]
+    assert levels(replace(scene, materials=rougher)) == [-1, -1, -1]
+    assert levels(replace(scene, relief_scale=2.0)) == [-1, -1, -1]
+    assert levels(replace(scene, floor=Floor(150.0))) == [-1] * 6
+    store.keep(contributions(replace(scene, lights=(first,))))
+    assert levels(scene) == [2, -1, 2]
 
 
 def test_premultiplied_and_back_in_register() -> None:

@@ -42,6 +42,10 @@ class RenderError(LampblackError):
     """The render process failed or ended."""
 
 
+class RenderRestartedError(RenderError):
+    """The render child went away and was started again; nothing is lost."""
+
+
 class OutputError(LampblackError):
     """A result cannot be written: the disk is full, or the folder is not writable."""
 

@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from ..cache import ArrayCache
 from ..camera import IDENTITY
+from ..drawing import DrawingPlanes
 from ..pipeline import Pipeline
-from ..protocol import frame_digest
+from ..preview import LightContribution, Viewport, ViewRequest, prepare_quick
+from ..preview.refinement import MOVING, REFINEMENT
 from ..render import RenderChild
 from ..scene import Scene
-from ..service.model import coarse_model
-from ..service.snapshot import Look, Snapshot
-from ..service.source import LADDERS, MOVING, Source, sources_of
 
 RENDERS = 15
 
@@ -26,29 +25,30 @@ RENDERS = 15
 def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
     """Median ms of one moved light traced, by its size and samples, with and without the
     denoiser."""
-    planes = {"pixels": picture}
-    digest = frame_digest(planes)  # type: ignore[arg-type]
     with TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
-        model = coarse_model(digest, planes, pipeline)  # type: ignore[arg-type]
+        drawing = prepare_quick("", DrawingPlanes(picture), pipeline)
     crop = (0.0, 0.0, float(picture.shape[1]), float(picture.shape[0]))
-    look = Look(1, 1, "lit", crop, (500, 500))
-    source = sources_of(Snapshot("", look, digest, IDENTITY, 1, scene), model)[0]
+    viewport = Viewport(1, 1, "lit", crop, (500, 500))
+    view = ViewRequest("", viewport, "", IDENTITY, 1, scene).resolve(drawing)
+    assert view is not None
+    contribution = view.contributions[0]
     figures: dict[str, float] = {}
     with RenderChild() as child:
-        surface = model.surface(scene)
+        surface = drawing.surface(scene)
 
-        def trace(moved: Source, *, develop: bool) -> float:
+        def trace(moved: LightContribution, *, develop: bool) -> float:
             begin = time.perf_counter()
-            child.expose(surface, moved.exposure(rung, 0, 1, develop=develop))
+            child.expose(surface, moved.exposure(level, 0, 1, develop=develop))
             return time.perf_counter() - begin
 
-        for rung in (*MOVING, LADDERS["light"][0]):
+        for level in (*MOVING, REFINEMENT["light"][0]):
             for develop, name in ((False, "cycles"), (True, "cycles_and_denoiser")):
-                taken = [trace(_moved(source, n), develop=develop) for n in range(RENDERS)]
-                figures[f"ms_{name}_{rung.longest}px_1spp"] = float(np.median(taken[3:]) * 1000)
+                taken = [trace(_moved(contribution, n), develop=develop) for n in range(RENDERS)]
+                figures[f"ms_{name}_{level.longest}px_1spp"] = float(np.median(taken[3:]) * 1000)
     return figures
 
 
-def _moved(source: Source, step: int) -> Source:
-    assert source.light is not None
-    return replace(source, light=replace(source.light, x=source.light.x + 20 * step))
+def _moved(contribution: LightContribution, step: int) -> LightContribution:
+    assert contribution.light is not None
+    light = replace(contribution.light, x=contribution.light.x + 20 * step)
+    return replace(contribution, light=light)

@@ -6,10 +6,12 @@ from .drawing import Drawing
 from .load import load_picture, read_picture, save_picture
 from .mask import ink_from_picture, mask_from_picture
 from .palette import Palette, Swatch
+from .planes import DrawingPlanes
 from .sequence import Frame, find_frames, parse_frames, select_frames
 
 __all__ = [
     "Drawing",
+    "DrawingPlanes",
     "Frame",
     "Palette",
     "Swatch",

@@ -9,18 +9,25 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..camera import scene_in_view
-from ..drawing import load_picture, save_picture
-from ..errors import LampblackError, NothingDrawnError, OutputError, RenderError
+from ..drawing import DrawingPlanes, load_picture, save_picture
+from ..errors import (
+    LampblackError,
+    NothingDrawnError,
+    OutputError,
+    RenderError,
+    RenderRestartedError,
+)
 from ..normals.temporal.neighbours import NeighbourKeys
 from ..pipeline import Pipeline
+from ..preview import PreviewState, RendererState
 from ..protocol import Done, ErrorCode, FrameDone, Progress, error_message
+from ..protocol.fields import Message
 from ..render import RenderChild
 from ..scene import Scene
 from ..timeline import scene_at
-from .model import Planes, take_planes_apart
-from .noticed import noticed_warnings
-from .session import Shown
-from .studio import Studio
+from ..warning_collector import collect_warnings
+from .faults import fault_message
+from .session import FrameContent
 from .surroundings import Surroundings
 
 NICENESS = 10
@@ -45,7 +52,7 @@ class Job:
 
     session: str
     request: int
-    frames: list[tuple[int, Shown]]
+    frames: list[tuple[int, FrameContent]]
     scene: Scene
     output: str
     keep_finished: bool
@@ -64,12 +71,19 @@ class Jobs:
     """Works off jobs one after another.
 
     Args:
+        previews: their planes are used too.
         need: asks the client of a session for the planes of a drawing.
+        deliver: sends a message to a session.
+
+    Attributes:
+        state: what the renderer of jobs does.
     """
 
-    studio: Studio
+    previews: PreviewState
     pipeline: Pipeline
     need: Callable[[str, str], None]
+    deliver: Callable[[str, Message], None]
+    state: RendererState = "off"
     _waiting: deque[Job] = field(default_factory=deque)
     _current: Job | None = None
     _condition: threading.Condition = field(default_factory=threading.Condition)
@@ -119,17 +133,17 @@ class Jobs:
         """Work until the studio closes."""
         while True:
             with self._condition:
-                self._condition.wait_for(lambda: self._waiting or self.studio.closing)
-                if self.studio.closing:
+                self._condition.wait_for(lambda: self._waiting or self.previews.closing)
+                if self.previews.closing:
                     break
                 job = self._current = self._waiting.popleft()
-            self.studio.update(job_state="working")
+            self.state = "working"
             self._work(job)
             with self._condition:
                 self._current = None
             if not self._waiting:
                 self.pipeline.rest()  # a renderer of finals holds much memory
-            self.studio.update(job_state="off" if self.pipeline.child.pid is None else "idle")
+            self.state = "off" if self.pipeline.child.pid is None else "idle"
         self.pipeline.__exit__(None, None, None)
 
     def _work(self, job: Job) -> None:
@@ -140,9 +154,9 @@ class Jobs:
         except _Cancelled:
             outcome = "cancelled"
         except OutputError as error:
-            self._tell(job, ErrorCode.OUTPUT_FAILED, error)
+            self._report(job, error)
             outcome = "failed"
-        self.studio.deliver(
+        self.deliver(
             job.session,
             Done(
                 request=job.request,
@@ -151,10 +165,9 @@ class Jobs:
                 frames_total=len(job.frames),
                 frames_failed=job.failed,
             ),
-            None,
         )
 
-    def _frame(self, job: Job, frame: int, shown: Shown) -> None:
+    def _frame(self, job: Job, frame: int, shown: FrameContent) -> None:
         """Make one frame, or tell why not.
 
         Raises:
@@ -167,29 +180,28 @@ class Jobs:
             return
         try:
             planes = self._planes(job, shown.digest)
-            with noticed_warnings() as noticed:
+            with collect_warnings() as warnings:
                 try:
                     self._light(job, frame, shown, planes, target)
                 except NothingDrawnError as error:
-                    self._tell(job, ErrorCode.NOTHING_DRAWN, error, frame)
+                    self._report(job, error, frame)
                     self._save(target, planes)
-            for sentence in noticed:
-                self._tell(job, ErrorCode.DRAWING_WARNING, LampblackError(sentence), frame)
+            for sentence in warnings:
+                code = ErrorCode.DRAWING_WARNING
+                message = error_message(code, what=sentence, request=job.request, frame=frame)
+                self.deliver(job.session, message)
         except (OutputError, _Cancelled):
             raise
-        except RenderError as error:
-            self._fail(job, ErrorCode.RENDER_FAILED, error, frame)
-        except LampblackError as error:
-            self._fail(job, ErrorCode.DRAWING_UNUSABLE, error, frame)
-        except MemoryError:
-            self._fail(job, ErrorCode.OUT_OF_MEMORY, LampblackError(""), frame)
-        except Exception as error:
-            self._fail(job, ErrorCode.INTERNAL, LampblackError("", details=repr(error)), frame)
+        except Exception as error:  # one frame's trouble must not end the job
+            job.failed += 1
+            self._report(job, error, frame)
         else:
             self._frame_done(job, frame, target, kept=False)
 
-    def _light(self, job: Job, frame: int, shown: Shown, planes: Planes, target: Path) -> None:
-        drawing = take_planes_apart(planes)
+    def _light(
+        self, job: Job, frame: int, shown: FrameContent, planes: DrawingPlanes, target: Path
+    ) -> None:
+        drawing = planes.decompose()
         scene = scene_in_view(scene_at(job.scene, frame), shown.camera, drawing.size)
         neighbours = self._surroundings.neighbours(
             job.around.get(shown.digest, ((), ())), lambda digest: self._planes(job, digest)
@@ -206,29 +218,30 @@ class Jobs:
                 self._check(job)
                 if attempt == ATTEMPTS - 1:
                     raise
-                self.studio.update(job_state="restarting")
+                self.state = "restarting"
                 if attempt == 0:
-                    self._tell(job, ErrorCode.RENDER_RESTARTED, error, frame)
-        self.studio.update(job_state="working")
+                    restarted = RenderRestartedError(error.what, error.remedy, error.details)
+                    self._report(job, restarted, frame)
+        self.state = "working"
         self._progress(job, frame, 0.99)
         _make_folder(target.parent)
         save_picture(target, picture)
 
-    def _save(self, target: Path, planes: Planes) -> None:
+    def _save(self, target: Path, planes: DrawingPlanes) -> None:
         _make_folder(target.parent)
-        save_picture(target, planes["pixels"])
+        save_picture(target, planes.pixels)
 
-    def _planes(self, job: Job, digest: str) -> Planes:
+    def _planes(self, job: Job, digest: str) -> DrawingPlanes:
         """The drawing's planes, asked for if they are not held."""
-        planes = self.studio.planes.get(digest)
+        planes = self.previews.planes.get(digest)
         if planes is None:
             self.need(job.session, digest)
-            with self.studio.condition:
-                self.studio.condition.wait_for(
-                    lambda: digest in self.studio.planes or job.cancelled, PLANES_SECONDS
+            with self.previews.condition:
+                self.previews.condition.wait_for(
+                    lambda: digest in self.previews.planes or job.cancelled, PLANES_SECONDS
                 )
             self._check(job)
-            planes = self.studio.planes.get(digest)
+            planes = self.previews.planes.get(digest)
         if planes is None:
             raise LampblackError("The drawing was not sent.", "Render the frame again.")
         return planes
@@ -246,29 +259,15 @@ class Jobs:
             frames_done=job.done,
             frames_total=len(job.frames),
         )
-        self.studio.deliver(job.session, message, None)
+        self.deliver(job.session, message)
 
     def _frame_done(self, job: Job, frame: int, path: Path, *, kept: bool) -> None:
         job.done += 1
         message = FrameDone(request=job.request, frame=frame, path=str(path), kept=kept)
-        self.studio.deliver(job.session, message, None)
+        self.deliver(job.session, message)
 
-    def _fail(self, job: Job, code: ErrorCode, error: LampblackError, frame: int) -> None:
-        job.failed += 1
-        self._tell(job, code, error, frame)
-
-    def _tell(
-        self, job: Job, code: ErrorCode, error: LampblackError, frame: int | None = None
-    ) -> None:
-        message = error_message(
-            code,
-            what=error.what,
-            remedy=error.remedy,
-            details=error.details,
-            request=job.request,
-            frame=frame,
-        )
-        self.studio.deliver(job.session, message, None)
+    def _report(self, job: Job, error: Exception, frame: int | None = None) -> None:
+        self.deliver(job.session, fault_message(error, request=job.request, frame=frame))
 
 
 def job_scene(scene: Scene, quality: str) -> Scene:

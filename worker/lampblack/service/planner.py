@@ -1,134 +1,126 @@
-"""From what clients set to what has to be made: looks, models, drawings to ask for."""
+"""From what clients set to what has to be made: views, prepared drawings, drawings to ask for."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-
-import msgspec
+from itertools import islice
 
 from ..drawing import Palette
+from ..preview import PreviewState, ViewRequest
+from ..preview.bounded import MIB, BoundedStore
+from ..preview.painter import Painter
+from ..preview.refinement import LOW
+from ..preview.state import DrawingKey
 from ..protocol import ErrorCode, NeedFrame, Swatch, error_message
 from ..protocol import Palette as PaletteMessage
 from ..protocol.fields import Message
-from .bounded import BoundedStore
-from .model import Grade
-from .painter import Painter
+from .faults import fault_message
 from .session import Session
-from .snapshot import Snapshot
-from .source import LOW, sources_of
-from .studio import MIB, Studio
 
 MAX_ASKED = 2
 """Drawings asked of a client at once, for frames that it does not look at."""
 AHEAD_SHARE = 0.7
-"""Of the room for models, what frames that are not looked at may take."""
+"""Share of the room for prepared drawings that frames not looked at may take."""
 
 
 @dataclass
 class Planner:
-    """Tells the other threads what is wanted; of the owner's thread alone.
+    """Says what is wanted of the preview; used by the owner's thread alone.
 
     Args:
         sessions: all there are, by identity; the owner's own.
         send: queues a message for a session.
     """
 
-    studio: Studio
+    state: PreviewState
     painter: Painter
     sessions: dict[bytes, Session]
     send: Callable[[Session, Message], None]
     _palettes: BoundedStore[str, Palette] = field(default_factory=lambda: BoundedStore(MIB))
-    _notices: BoundedStore[str, list[str]] = field(default_factory=lambda: BoundedStore(MIB))
+    _warnings: BoundedStore[str, list[str]] = field(default_factory=lambda: BoundedStore(MIB))
     _dirty: bool = False
 
     def changed(self) -> None:
-        """Something that a client set, or that was made for it, is another."""
+        """Something that a client set, or that was made for it, is different now."""
         self._dirty = True
 
-    def note(self, digest: str, palette: Palette | None, noticed: list[str]) -> None:
-        """The modeller got on with a drawing."""
+    def note(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
+        """The preparer got on with a drawing."""
         if palette is not None:
             self._palettes.put(digest, palette, 64 * len(palette.swatches) + 64)
-            self._notices.put(digest, noticed, 1000)
+            self._warnings.put(digest, warnings, 1000)
         self.changed()
 
     def plan(self) -> None:
-        """Tell the other threads what is wanted now, if that has changed."""
+        """Say what is wanted now, if that has changed."""
         if not self._dirty:
             return
         self._dirty = False
-        wanted: dict[str, Snapshot] = {}
-        ahead: list[Snapshot] = []
-        urgent: list[tuple[str, Grade]] = []
+        views: dict[str, ViewRequest] = {}
+        ahead: list[ViewRequest] = []
+        urgent: list[DrawingKey] = []
         for session in self.sessions.values():
-            snapshot = session.snapshot()
-            if snapshot is not None:
-                wanted[session.name] = snapshot
-                if (snapshot.digest, "fine") not in self.studio.models:
-                    urgent.append((snapshot.digest, "coarse"))
-                urgent.append((snapshot.digest, "fine"))
-                self._need(session, snapshot.digest)
-                self._tell_of_drawing(session, snapshot)
+            view = session.view()
+            if view is not None:
+                views[session.name] = view
+                if (view.digest, "full") not in self.state.drawings:
+                    urgent.append((view.digest, "quick"))
+                urgent.append((view.digest, "full"))
+                self._request_missing(session, view.digest)
+                self._report_drawing(session, view)
             for _, frame in session.palettes:
-                urgent.append((session.frames[frame].digest, "fine"))
-                self._need(session, session.frames[frame].digest)
+                urgent.append((session.frames[frame].digest, "full"))
+                self._request_missing(session, session.frames[frame].digest)
             ahead += self._nearest(session)
-        later: list[tuple[str, Grade]] = [(snapshot.digest, "fine") for snapshot in ahead]
-        moved = any(self.studio.wanted.get(name) != look for name, look in wanted.items())
-        self.studio.update(
-            wanted=wanted,
-            ahead=tuple(ahead),
-            models_wanted=tuple(dict.fromkeys(urgent + later)),
-            changed=time.monotonic() if moved else self.studio.changed,
-        )
-        for snapshot in wanted.values():
-            self.painter.offer(snapshot)
+        later: list[DrawingKey] = [(request.digest, "full") for request in ahead]
+        self.state.show(views, tuple(ahead), tuple(dict.fromkeys(urgent + later)))
+        for view in views.values():
+            self.painter.offer(view)
         for session in self.sessions.values():
             self._answer_palettes(session)
 
     def frames_held(self, session: Session) -> int:
-        """Frames whose drawing is held, or a model of it."""
+        """Frames whose drawing is held, or prepared."""
         held = {
             digest
-            for digest in {shown.digest for shown in session.frames.values()}
-            if digest in self.studio.planes or self.studio.model(digest)
+            for digest in {content.digest for content in session.frames.values()}
+            if digest in self.state.planes or self.state.drawing(digest)
         }
-        return sum(shown.digest in held for shown in session.frames.values())
+        return sum(content.digest in held for content in session.frames.values())
 
     def frames_lit(self, session: Session) -> int:
         """Frames that can be shown at once, at low quality or better."""
-        snapshot = session.snapshot()
+        view = session.view()
         lit = set()
-        for seen in [*([snapshot] if snapshot else []), *session.ahead()]:
-            model = self.studio.models.get((seen.digest, "fine"))
-            if model is not None and all(
-                self.studio.lights.rung(source) >= LOW for source in sources_of(seen, model)
-            ):
-                lit.add(session.sight(seen.look.frame))
+        for request in [*([view] if view else []), *session.ahead()]:
+            drawing = self.state.drawings.get((request.digest, "full"))
+            resolved = drawing and request.resolve(drawing)
+            contributions = resolved.contributions if resolved else ()
+            if drawing and all(self.state.lights.level(c) >= LOW for c in contributions):
+                lit.add(session.sight(request.viewport.frame))
         return sum(session.sight(frame) in lit for frame in session.frames)
 
-    def _nearest(self, session: Session) -> list[Snapshot]:
+    def _nearest(self, session: Session) -> list[ViewRequest]:
         """Frames ahead, as many as there is room for; those not held are asked for."""
-        snapshot = session.snapshot()
-        if snapshot is None or snapshot.look.show != "lit":
+        view = session.view()
+        if view is None or view.viewport.show != "lit":
             return []
-        model = self.studio.models.get((snapshot.digest, "fine"))
-        if model is None:
+        drawing = self.state.drawings.get((view.digest, "full"))
+        if drawing is None:
             return []
-        room = AHEAD_SHARE * self.studio.models.max_bytes / model.nbytes / len(self.sessions)
-        nearest = [seen for seen, _ in zip(session.ahead(), range(int(room)), strict=False)]
-        for seen in nearest:
+        room = AHEAD_SHARE * self.state.drawings.max_bytes / drawing.nbytes / len(self.sessions)
+        nearest = list(islice(session.ahead(), int(room)))
+        for request in nearest:
             if len(session.asked) >= MAX_ASKED:
                 break
-            self._need(session, seen.digest)
+            self._request_missing(session, request.digest)
         return nearest
 
-    def _need(self, session: Session, digest: str) -> None:
+    def _request_missing(self, session: Session, digest: str) -> None:
         """Ask for a drawing that is not held, once."""
-        held = digest in self.studio.planes or (digest, "fine") in self.studio.models
-        if held or digest in session.asked or digest in self.studio.failed:
+        held = digest in self.state.planes or (digest, "full") in self.state.drawings
+        if held or digest in session.asked or self.state.failure(digest) is not None:
             return
         self.ask(session, digest)
 
@@ -139,16 +131,16 @@ class Planner:
             session.asked.add(digest)
             self.send(session, NeedFrame(frame=frame, digest=digest))
 
-    def _tell_of_drawing(self, session: Session, snapshot: Snapshot) -> None:
-        """Tell, once, what is wrong with the drawing that is looked at."""
-        frame, digest = snapshot.look.frame, snapshot.digest
-        failure, notices = self.studio.failed.get(digest), self._notices.get(digest)
-        if digest in session.told or (failure is None and notices is None):
+    def _report_drawing(self, session: Session, view: ViewRequest) -> None:
+        """Report, once, what is wrong with the drawing that is looked at."""
+        frame, digest = view.viewport.frame, view.digest
+        failure, warnings = self.state.failure(digest), self._warnings.get(digest)
+        if digest in session.informed or (failure is None and warnings is None):
             return
-        session.told.add(digest)
+        session.informed.add(digest)
         if failure is not None:
-            self.send(session, msgspec.structs.replace(failure, frame=frame))
-        for sentence in notices or []:
+            self.send(session, fault_message(failure, frame=frame))
+        for sentence in warnings or []:
             code = ErrorCode.DRAWING_WARNING
             self.send(session, error_message(code, what=sentence, frame=frame))
 
@@ -156,17 +148,20 @@ class Planner:
         waiting, session.palettes = session.palettes, []
         for request, frame in waiting:
             digest = session.frames[frame].digest
-            palette, failure = self._palettes.get(digest), self.studio.failed.get(digest)
-            model = self.studio.models.get((digest, "fine"))
+            palette, failure = self._palettes.get(digest), self.state.failure(digest)
+            drawing = self.state.drawings.get((digest, "full"))
+            if palette is None and drawing is not None:
+                palette = drawing.sheet.palette
             if failure is not None:
-                self.send(session, msgspec.structs.replace(failure, request=request, frame=frame))
-            elif palette is not None or model is not None:
-                swatches = (palette or model.sheet.palette).swatches  # type: ignore[union-attr]
+                self.send(session, fault_message(failure, request=request, frame=frame))
+            elif palette is not None:
                 message = PaletteMessage(
                     request=request,
                     frame=frame,
                     digest=digest,
-                    swatches=tuple(Swatch(colour=s.colour, pixels=s.pixels) for s in swatches),
+                    swatches=tuple(
+                        Swatch(colour=s.colour, pixels=s.pixels) for s in palette.swatches
+                    ),
                 )
                 self.send(session, message)
             else:

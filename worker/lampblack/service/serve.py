@@ -11,9 +11,14 @@ import zmq
 
 from ..cache import surface_cache
 from ..errors import LampblackError
+from ..pipeline import Pipeline
+from ..render import RenderChild
+from ..warning_collector import install_warning_collector
 from .endpoint import connection_file, private_endpoint
-from .noticed import listen
-from .server import Server, bind
+from .job import NICENESS
+from .server import Server
+from .service import Service
+from .socket import RouterSocket
 
 
 def serve_forever(connection: Path, parent: int | None = None) -> None:
@@ -25,17 +30,19 @@ def serve_forever(connection: Path, parent: int | None = None) -> None:
         LampblackError: there is no such parent, or no place for the socket or the file.
     """
     watched = None if parent is None else _watch(parent)
-    listen()
+    install_warning_collector()
     context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
     try:
         with private_endpoint() as endpoint:
-            router = bind(context, endpoint)
+            socket = RouterSocket(context, endpoint)
             try:
-                server = Server(router, surface_cache())
+                cache = surface_cache()
+                jobs = Pipeline(cache, niceness=NICENESS)
+                service = Service(socket, RenderChild(), Pipeline(cache), jobs)
                 with connection_file(connection, endpoint):
-                    server.run(lambda: watched is not None and _is_gone(watched), watched)
+                    Server(socket, service).run(lambda: _is_gone(watched), watched)
             finally:
-                router.close(0)
+                socket.close()
     finally:
         context.term()
         if watched is not None:
@@ -53,5 +60,5 @@ def _watch(pid: int) -> int:
         ) from error
 
 
-def _is_gone(descriptor: int) -> bool:
-    return bool(select.select([descriptor], [], [], 0)[0])
+def _is_gone(descriptor: int | None) -> bool:
+    return descriptor is not None and bool(select.select([descriptor], [], [], 0)[0])

@@ -7,16 +7,15 @@ from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ..camera import Affine
+from ..preview import Viewport, ViewRequest
 from ..protocol import ErrorCode, error_message
 from ..protocol.fields import Message
 from ..scene import Scene
 from ..timeline import is_keyed, scene_at
-from .outbox import Outbox
-from .snapshot import Look, Snapshot
 
 
 @dataclass(frozen=True)
-class Shown:
+class FrameContent:
     """What a frame shows."""
 
     digest: str
@@ -27,64 +26,100 @@ class Shown:
 class Session:
     """One client, from its hello on.
 
+    Set what it shows by the methods, which drop the requests made of it before.
+
     Attributes:
         identity: its routing identity. name: its session's name.
-        frames: what each frame shows. look: what it looks at.
+        frames: what each frame shows. viewport: what it looks at.
         request: the last request number. asked: drawings that need_frame asked for.
         palettes: requests for palettes, with their frame, that wait for a drawing.
-        told: drawings whose troubles it has heard of.
+        informed: drawings whose troubles it was sent.
     """
 
     identity: bytes
     name: str = field(default_factory=lambda: secrets.token_hex(16))
-    outbox: Outbox = field(default_factory=Outbox)
     revision: int = 0
     scene: Scene | None = None
-    frames: dict[int, Shown] = field(default_factory=dict)
-    look: Look | None = None
+    frames: dict[int, FrameContent] = field(default_factory=dict)
+    viewport: Viewport | None = None
     request: int = 0
     asked: set[str] = field(default_factory=set)
     palettes: list[tuple[int, int]] = field(default_factory=list)
-    told: set[str] = field(default_factory=set)
+    informed: set[str] = field(default_factory=set)
+    _requests: dict[int, ViewRequest] = field(default_factory=dict)
 
-    def snapshot(self) -> Snapshot | None:
-        """What is wanted now; None without a look, or one at a frame that shows nothing."""
-        return None if self.look is None else self._snapshot_of(self.look)
+    def set_scene(self, revision: int, scene: Scene) -> None:
+        """Replace the scene."""
+        self.revision, self.scene = revision, scene
+        self._requests.clear()
 
-    def ahead(self) -> Iterator[Snapshot]:
+    def look_at(self, viewport: Viewport | None) -> None:
+        """Look at something else, or at nothing."""
+        self.viewport = viewport
+        self._requests.clear()
+
+    def put_frame(self, frame: int, content: FrameContent) -> None:
+        """Let ``frame`` show something else."""
+        before = self.frames.get(frame)
+        if before is not None and before.digest != content.digest:
+            self.asked.discard(before.digest)  # a client does not send what no frame shows
+        self.frames[frame] = content
+        self._requests.pop(frame, None)
+
+    def drop_frame(self, frame: int) -> None:
+        """``frame`` shows nothing any more."""
+        before = self.frames.pop(frame, None)
+        if before is not None:
+            self.asked.discard(before.digest)
+        self.palettes = [waiting for waiting in self.palettes if waiting[1] != frame]
+        self._requests.pop(frame, None)
+
+    def view(self) -> ViewRequest | None:
+        """What is looked at now; None for nothing, or a frame without a drawing."""
+        return None if self.viewport is None else self._request_for(self.viewport)
+
+    def ahead(self) -> Iterator[ViewRequest]:
         """What may be looked at next: the other frames, nearest first, each sight once."""
-        look = self.look
-        if look is None or self.scene is None or look.frame not in self.frames:
+        viewport = self.viewport
+        if viewport is None or self.scene is None or viewport.frame not in self.frames:
             return
-        seen = {self.sight(look.frame)}
-        for frame in sorted(self.frames, key=lambda number: (abs(number - look.frame), number)):
-            snapshot = self._snapshot_of(replace(look, frame=frame, show="lit"))
-            if snapshot is not None and self.sight(frame) not in seen:
-                seen.add(self.sight(frame))
-                yield snapshot
+        seen = {self.sight(viewport.frame)}
+        for frame in sorted(self.frames, key=lambda n: (abs(n - viewport.frame), n)):
+            if self.sight(frame) in seen:
+                continue
+            seen.add(self.sight(frame))
+            request = self._request_for(replace(viewport, frame=frame, show="lit"))
+            if request is not None:
+                yield request
 
     def sight(self, frame: int) -> Hashable:
         """The same for frames that look alike: by their drawing, unless the light is keyed."""
         digest = self.frames[frame].digest
         return (digest, frame) if self.scene is not None and is_keyed(self.scene) else digest
 
-    def _snapshot_of(self, look: Look) -> Snapshot | None:
-        shown = self.frames.get(look.frame)
-        if shown is None:
-            return None
-        scene = None if self.scene is None else scene_at(self.scene, look.frame)
-        return Snapshot(self.name, look, shown.digest, shown.camera, self.revision, scene)
-
     def frame_showing(self, digest: str) -> int | None:
         """A frame that shows the drawing, the one that is looked at before others."""
-        seen = self.look and self.frames.get(self.look.frame)
-        if self.look and seen and seen.digest == digest:
-            return self.look.frame
-        return next((n for n, shown in self.frames.items() if shown.digest == digest), None)
+        seen = self.viewport and self.frames.get(self.viewport.frame)
+        if self.viewport and seen and seen.digest == digest:
+            return self.viewport.frame
+        return next((n for n, content in self.frames.items() if content.digest == digest), None)
 
-    def rises(self, request: int) -> Message | None:
+    def check_request(self, request: int) -> Message | None:
         """Take a request number; the error to answer if it does not rise."""
         if request <= self.request:
             return error_message(ErrorCode.STALE_REQUEST, request=request)
         self.request = request
         return None
+
+    def _request_for(self, viewport: Viewport) -> ViewRequest | None:
+        """The same request as before while nothing of it changes, with all it worked out."""
+        content = self.frames.get(viewport.frame)
+        if content is None:
+            return None
+        request = self._requests.get(viewport.frame)
+        if request is None or request.viewport != viewport:
+            scene = None if self.scene is None else scene_at(self.scene, viewport.frame)
+            request = self._requests[viewport.frame] = ViewRequest(
+                self.name, viewport, content.digest, content.camera, self.revision, scene
+            )
+        return request

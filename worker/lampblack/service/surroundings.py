@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable
 
+from ..drawing import DrawingPlanes
 from ..errors import LampblackError
 from ..normals.temporal.neighbours import REACH, NeighbourKeys
 from ..normals.temporal.temporal_filter import LazyNeighbours, Neighbours
 from ..normals.temporal.thumbnail import RegistrationThumbnail
 from ..pipeline import Pipeline
-from .model import Planes, take_planes_apart
+
+FindPlanes = Callable[[str], DrawingPlanes]
 
 _KEPT = 4 * REACH
 
@@ -22,9 +24,7 @@ class Surroundings:
         self._pipeline = pipeline
         self._small: OrderedDict[str, RegistrationThumbnail] = OrderedDict()
 
-    def neighbours(
-        self, names: NeighbourKeys, planes: Callable[[str], Planes]
-    ) -> LazyNeighbours | None:
+    def neighbours(self, names: NeighbourKeys, planes: FindPlanes) -> LazyNeighbours | None:
         """The neighbours called ``names``, None if there are none; of those before and after,
         none beyond one that cannot be used. ``planes`` finds a drawing by its digest."""
         if not any(names):
@@ -33,9 +33,7 @@ class Surroundings:
             names, lambda: Neighbours(*(tuple(self._usable(n, planes)) for n in names))
         )
 
-    def _usable(
-        self, names: tuple[str, ...], planes: Callable[[str], Planes]
-    ) -> list[RegistrationThumbnail]:
+    def _usable(self, names: tuple[str, ...], planes: FindPlanes) -> list[RegistrationThumbnail]:
         found: list[RegistrationThumbnail] = []
         for name in names:
             try:
@@ -44,9 +42,9 @@ class Surroundings:
                 break
         return found
 
-    def _thumbnail(self, name: str, planes: Callable[[str], Planes]) -> RegistrationThumbnail:
+    def _thumbnail(self, name: str, planes: FindPlanes) -> RegistrationThumbnail:
         if name not in self._small:
-            self._small[name] = self._pipeline.thumbnail(take_planes_apart(planes(name)))
+            self._small[name] = self._pipeline.thumbnail(planes(name).decompose())
             if len(self._small) > _KEPT:
                 self._small.popitem(last=False)
         self._small.move_to_end(name)

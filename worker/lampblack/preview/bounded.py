@@ -1,4 +1,4 @@
-"""Memory that is bounded: the least lately used goes first."""
+"""Memory that is bounded: the least recently used goes first."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import Generic, TypeVar
 
 Key = TypeVar("Key", bound=Hashable)
 Value = TypeVar("Value")
+
+MIB = 1 << 20
 
 
 class BoundedStore(Generic[Key, Value]):
@@ -33,7 +35,7 @@ class BoundedStore(Generic[Key, Value]):
                 self._drop(next(iter(self._held)))
 
     def get(self, key: Key) -> Value | None:
-        """The value of ``key``, which is then the latest used; None if it is not held."""
+        """The value of ``key``, which is then the most recently used; None if it is not held."""
         with self._lock:
             if key not in self._held:
                 return None
@@ -41,12 +43,12 @@ class BoundedStore(Generic[Key, Value]):
             return self._held[key][0]
 
     def drop(self, key: Key) -> None:
-        """Let go of ``key``, if it is held."""
+        """Drop ``key``, if it is held."""
         with self._lock:
             self._drop(key)
 
     def keep(self, keys: Set[object]) -> None:
-        """Let go of all but ``keys``."""
+        """Drop all but ``keys``."""
         with self._lock:
             for key in [key for key in self._held if key not in keys]:
                 self._drop(key)

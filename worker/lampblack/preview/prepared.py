@@ -1,4 +1,4 @@
-"""A drawing made ready to be lit: its layers, its height, and what its relief wears."""
+"""A drawing prepared to be lit: its layers, its height, and its surface."""
 
 from __future__ import annotations
 
@@ -10,38 +10,37 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ..composite.sheet import Box, Sheet, sheet_of
-from ..drawing import Drawing, decompose_drawing
+from ..drawing import Drawing, DrawingPlanes
 from ..pipeline import Pipeline, surface_step
-from ..protocol import Pixels, Role
 from ..render import Surface, assign_materials, vertex_pixels
 from ..scene import Scene
 from ..surface import build_relief, solve
 
-COARSE_PX = 500
+QUICK_PX = 500
 """Longest side at which a new drawing is first shown."""
 VERTICES = 250
 """Vertices along the longer side of a preview's relief."""
 
-Grade = Literal["coarse", "fine"]
-Planes = dict[Role, Pixels]
+Detail = Literal["quick", "full"]
 
 
 @dataclass(frozen=True)
-class Model:
+class PreparedDrawing:
     """One drawing, ready to be lit.
 
     Attributes:
-        digest: of the drawing. grade: coarse is small, and its normals are of quick quality.
+        digest: of the drawing.
+        detail: quick is small, and its normals are of quick quality.
         size: (width, height) of the drawing.
         step: pixels of the drawing per pixel of ``sheet``.
         sheet: its layers.
         height: (h, w) float32, pixels of the drawing. mask: (h, w) bool.
         normals: (h, w, 3) uint8, (n + 1) / 2 x 255; 0 outside the mask.
-        box: around the figure, pixels of the drawing.
+        box: around the character, pixels of the drawing.
     """
 
     digest: str
-    grade: Grade
+    detail: Detail
     size: tuple[int, int]
     step: int
     sheet: Sheet
@@ -73,59 +72,49 @@ class Model:
         )
 
 
-def take_planes_apart(planes: Planes) -> Drawing:
-    """The drawing in the planes of a frame; see ``decompose_drawing``."""
-    mask, ink = planes.get("mask"), planes.get("ink")
-    return decompose_drawing(
-        planes["pixels"],
-        mask=None if mask is None else _grey(mask),
-        ink=None if ink is None else _grey(np.invert(ink)),
-    )
-
-
-def coarse_model(digest: str, planes: Planes, pipeline: Pipeline) -> Model:
-    """A first model within a fraction of a second: small, from normals of quick quality.
+def prepare_quick(digest: str, planes: DrawingPlanes, pipeline: Pipeline) -> PreparedDrawing:
+    """Prepare a drawing within a fraction of a second: small, from normals of quick quality.
 
     Raises:
         DrawingError: there is nothing to light.
     """
-    height, width = planes["pixels"].shape[:2]
-    step = -(-max(width, height) // COARSE_PX)
-    drawing = take_planes_apart({role: _reduced(plane, step) for role, plane in planes.items()})
+    height, width = planes.pixels.shape[:2]
+    step = -(-max(width, height) // QUICK_PX)
+    drawing = planes.reduced(step).decompose()
     lines, mask = _halved(drawing)
     normals = pipeline.quick_normals(lines, mask)
     heights = solve(normals, mask) * np.float32(width / mask.shape[1])
-    return _model(digest, "coarse", (width, height), step, drawing, mask, normals, heights)
+    return _prepared(digest, "quick", (width, height), step, drawing, mask, normals, heights)
 
 
-def fine_model(digest: str, drawing: Drawing, pipeline: Pipeline) -> Model:
-    """The model that finals are lit on, from normals of default quality."""
+def prepare_full(digest: str, drawing: Drawing, pipeline: Pipeline) -> PreparedDrawing:
+    """Prepare a drawing as finals are, from normals of default quality."""
     heights, normals, mask = pipeline.height(drawing), pipeline.normals(drawing), drawing.mask
     stride = surface_step(drawing)
     if stride > 1:
         rows, columns = heights.shape
         middle = np.s_[stride // 2 :: stride, stride // 2 :: stride]
         mask, normals = mask[middle][:rows, :columns], normals[middle][:rows, :columns]
-    return _model(digest, "fine", drawing.size, 1, drawing, mask, normals, heights)
+    return _prepared(digest, "full", drawing.size, 1, drawing, mask, normals, heights)
 
 
-def _model(
+def _prepared(
     digest: str,
-    grade: Grade,
+    detail: Detail,
     size: tuple[int, int],
     step: int,
     drawing: Drawing,
     mask: NDArray[np.bool_],
     normals: NDArray[np.float32],
     heights: NDArray[np.float32],
-) -> Model:
+) -> PreparedDrawing:
     rows, columns = (np.flatnonzero(drawing.mask.any(axis=axis)) for axis in (1, 0))
     left, top = columns[0] - 2, rows[0] - 2
     box = (left, top, columns[-1] + 3 - left, rows[-1] + 3 - top)
     shown = np.rint((normals + 1) * 127.5) * mask[..., None]
-    return Model(
+    return PreparedDrawing(
         digest=digest,
-        grade=grade,
+        detail=detail,
         size=size,
         step=step,
         sheet=sheet_of(drawing),
@@ -142,7 +131,7 @@ def _model(
 
 
 def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Lines and mask at half the size; of a figure too fine for that, as they are."""
+    """Lines and mask at half the size; of a character too fine for that, as they are."""
     size = max(1, drawing.size[0] // 2), max(1, drawing.size[1] // 2)
     cover = Image.fromarray(drawing.mask.astype(np.uint8) * 255)
     mask = np.asarray(cover.resize(size, Image.Resampling.BOX)) > 96
@@ -150,16 +139,3 @@ def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
         return drawing.lines, drawing.mask
     lines = Image.fromarray(drawing.lines).resize(size, Image.Resampling.BOX)
     return np.asarray(lines), mask
-
-
-def _grey(plane: Pixels) -> Pixels:
-    """An opaque grey picture, as masks and ink are read."""
-    return np.dstack([plane, plane, plane, np.full_like(plane, 255)])
-
-
-def _reduced(plane: Pixels, step: int) -> Pixels:
-    if step == 1:
-        return plane
-    if plane.ndim == 2:
-        return np.asarray(Image.fromarray(plane).reduce(step))
-    return np.asarray(Image.fromarray(plane).convert("RGBa").reduce(step).convert("RGBA"))

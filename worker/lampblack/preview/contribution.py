@@ -1,0 +1,121 @@
+"""The light of a scene on one drawing, in parts that are traced and kept one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..colour import hex_linear
+from ..composite.sheet import Box
+from ..materials import MaterialTable
+from ..render import Expose
+from ..scene import AreaLight, Canvas, Floor, Scene
+from .prepared import PreparedDrawing
+from .refinement import REFINEMENT, RefinementLevel
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class LightContribution:
+    """One light, or the ambient light, on the character or on the floor.
+
+    Attributes:
+        key: all that shapes the light, but for the amounts of gloss.
+        amounts: of gloss, by swatch: another amount changes little, so that the light traced
+            under other amounts is shown until it is traced again.
+        weight: (3,) colour times power, which only the composite uses.
+        light: None is the ambient light.
+        area: what it covers, pixels of the drawing.
+    """
+
+    key: Hashable
+    amounts: tuple[float, ...]
+    weight: Floats
+    light: AreaLight | None
+    subject: Literal["figure", "floor"]
+    area: Box
+    canvas: Canvas
+    floor: Floor | None
+
+    @property
+    def refinement(self) -> tuple[RefinementLevel, RefinementLevel]:
+        """Its levels ``LOW`` and ``CONVERGED``."""
+        if self.subject == "floor":
+            return REFINEMENT["floor"]
+        return REFINEMENT["light" if self.light else "ambient"]
+
+    def exposure(self, level: RefinementLevel, first: int, count: int, *, develop: bool) -> Expose:
+        """Ask for samples ``first`` to ``first + count`` of ``level``."""
+        _, _, width, height = self.area
+        scale = level.longest / max(width, height)
+        size = max(1, round(width * scale)), max(1, round(height * scale))
+        return Expose(
+            self.canvas, self.area, size, self.light, self.floor, self.subject,
+            level.spp, first, count, develop,
+        )  # fmt: skip
+
+
+def contributions_of(
+    scene: Scene, drawing: PreparedDrawing, character: Box
+) -> tuple[LightContribution, ...]:
+    """What has to be traced: first the character's light, then the floor's.
+
+    Lights of no power are left out.
+
+    Args:
+        scene: in pixels of the drawing.
+        character: what of the character is traced, see ``character_area``.
+    """
+    materials = _materials(scene, drawing)
+    shared = scene.render_key(materials=False, sampling=False), materials.key
+    floor = None if scene.floor is None else replace(scene.floor, extra={})
+    whole = (0.0, 0.0, float(drawing.size[0]), float(drawing.size[1]))
+    lights = [(light, hex_linear(light.colour) * np.float32(light.power)) for light in scene.lights]
+    ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+    found = []
+    for subject in ("figure", "floor") if floor else ("figure",):
+        area = character if subject == "figure" else whole
+        for light, weight in (*lights, (None, ambient)):
+            if not weight.any():
+                continue
+            at = light and light.geometry
+            key = (drawing.digest, drawing.detail, shared, subject, area, at)
+            neutral = light and light.neutral()
+            found.append(
+                LightContribution(
+                    key, materials.amounts, weight, neutral, subject, area, scene.canvas, floor
+                )
+            )
+    return tuple(found)
+
+
+def surface_key(scene: Scene, drawing: PreparedDrawing) -> Hashable:
+    """All that shapes ``drawing.surface(scene)``."""
+    materials = _materials(scene, drawing)
+    bare = replace(scene, canvas=Canvas(1, 1), floor=None).render_key(
+        materials=False, sampling=False
+    )
+    return drawing.digest, drawing.detail, bare, materials.key, materials.amounts
+
+
+def character_area(drawing: PreparedDrawing, crop: Box) -> Box:
+    """What of the character is traced: all of it, or what is in sight when that is far less."""
+    x, y, width, height = drawing.box
+    left, top = max(x, crop[0]), max(y, crop[1])
+    right, bottom = min(x + width, crop[0] + crop[2]), min(y + height, crop[1] + crop[3])
+    if (
+        right - left < 1
+        or bottom - top < 1
+        or max(right - left, bottom - top) > max(width, height) / 2
+    ):
+        return drawing.box
+    return left, top, right - left, bottom - top
+
+
+def _materials(scene: Scene, drawing: PreparedDrawing) -> MaterialTable:
+    return MaterialTable.of(scene, drawing.sheet.palette.colours)

@@ -1,0 +1,75 @@
+"""A live preview: the state, and the threads that work on it."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+from ..drawing import Palette
+from ..errors import RenderError
+from ..pipeline import Pipeline
+from .painter import Painter, PreviewImage
+from .preparer import Preparer
+from .state import PreviewState
+from .tracer import PreviewRenderer, Tracer
+
+
+class PreviewListener(Protocol):
+    """Hears of what a preview made; called from its threads."""
+
+    def on_picture(self, image: PreviewImage) -> None:
+        """There is a picture to show."""
+
+    def on_drawing(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
+        """A drawing was decomposed (then with its palette), prepared, or found unusable."""
+
+    def on_preview_error(self, session: str, error: Exception) -> None:
+        """Something went wrong with what the session looks at."""
+
+
+class LivePreview:
+    """Prepares, traces and paints what ``state`` wants.
+
+    Args:
+        renderer: of its own; closed with it.
+        pipeline: predicts and inflates; its renderer is not used.
+        clock: monotonic seconds.
+    """
+
+    def __init__(
+        self,
+        renderer: PreviewRenderer,
+        pipeline: Pipeline,
+        listener: PreviewListener,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.state = PreviewState(clock)
+        self.renderer = renderer
+        self.painter = Painter(self.state, listener.on_picture, listener.on_preview_error)
+        self.tracer = Tracer(self.state, self.painter, renderer, self._report_to_all)
+        self.preparer = Preparer(self.state, pipeline, listener.on_drawing)
+        self._listener = listener
+        self._threads = [
+            threading.Thread(target=part.run, name=type(part).__name__, daemon=True)
+            for part in (self.painter, self.tracer, self.preparer)
+        ]
+
+    def start(self) -> None:
+        """Start the threads."""
+        for thread in self._threads:
+            thread.start()
+
+    def close(self) -> None:
+        """End the threads and the renderer."""
+        self.state.close()
+        self.painter.close()
+        self.renderer.kill()
+        for thread in self._threads:
+            if thread.is_alive():
+                thread.join(2)
+
+    def _report_to_all(self, error: RenderError) -> None:
+        for session in list(self.state.views):
+            self._listener.on_preview_error(session, error)

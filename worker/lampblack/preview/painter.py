@@ -1,0 +1,238 @@
+"""The painter: a thread that composites the light there is over drawings, picture by picture."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..composite.light_sheet import Light, add_up, light_sheet, warm_up
+from ..composite.shadow import FAINT
+from ..composite.sheet import Sheet, cut_picture
+from .bounded import MIB, BoundedStore
+from .light_store import AccumulatedLight
+from .prepared import PreparedDrawing
+from .refinement import CONVERGED
+from .request import ResolvedView, ViewRequest
+from .state import PreviewState
+
+Picture = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, eq=False)
+class PreviewImage:
+    """A picture of a request.
+
+    Attributes:
+        passes: pictures of the same request, revision and drawing before this one.
+        spp: samples per pixel so far.
+        converged: nothing better follows until something changes.
+        picture: (H, W, 4) uint8 sRGB, premultiplied, of the viewport's size.
+    """
+
+    request: ViewRequest
+    passes: int
+    spp: int
+    converged: bool
+    picture: Picture
+
+
+@dataclass
+class _Shown:
+    """What a client was shown last: ``content`` is all that the picture was made from."""
+
+    order: tuple[int, int] = (0, 0)
+    digest: str = ""
+    content: Hashable = None
+    passes: int = 0
+
+
+class Painter:
+    """Paints the newest request of each session whose light is all there.
+
+    Args:
+        deliver: takes the pictures, in the painter's thread.
+        report: takes the session and what went wrong with its picture.
+    """
+
+    def __init__(
+        self,
+        state: PreviewState,
+        deliver: Callable[[PreviewImage], None],
+        report: Callable[[str, Exception], None],
+    ) -> None:
+        self._state = state
+        self._deliver = deliver
+        self._report = report
+        self._offers: dict[str, dict[tuple[int, int], ViewRequest]] = {}
+        self._shown: dict[str, _Shown] = {}
+        self._sheets: BoundedStore[Hashable, Sheet] = BoundedStore(128 * MIB)
+        self._condition = threading.Condition()
+        self._closing = False
+
+    def offer(self, request: ViewRequest) -> None:
+        """Paint ``request`` if nothing newer can be painted."""
+        with self._condition:
+            self._offers.setdefault(request.session, {})[request.order] = request
+            self._condition.notify()
+
+    def forget(self, session: str) -> None:
+        """The session is over."""
+        with self._condition:
+            self._offers.pop(session, None)
+            self._shown.pop(session, None)
+
+    def close(self) -> None:
+        """End the thread."""
+        with self._condition:
+            self._closing = True
+            self._condition.notify()
+
+    def run(self) -> None:
+        """Paint until closed."""
+        warm_up()
+        while True:
+            with self._condition:
+                self._condition.wait_for(lambda: self._closing or self._offers)
+                if self._closing:
+                    return
+            self.step()
+
+    def step(self) -> bool:
+        """Paint for one session; False if nothing was offered."""
+        with self._condition:
+            if not self._offers:
+                return False
+            session, requests = self._offers.popitem()
+        try:
+            for order in sorted(requests, reverse=True):
+                if self._paint(requests[order]):
+                    break
+        except Exception as error:  # one client's trouble is not the others'
+            self._report(session, error)
+        return True
+
+    def prepare(self, request: ViewRequest, drawing: PreparedDrawing) -> Sheet:
+        """The drawing's layers at the size and crop of the viewport, kept for the next time."""
+        crop, size = request.viewport.crop, request.viewport.size
+        key = (drawing.digest, drawing.detail, crop, size)
+        sheet = self._sheets.get(key)
+        if sheet is None:
+            x, y, width, height = crop
+            step = drawing.step
+            sheet = drawing.sheet.cut((x / step, y / step, width / step, height / step), size)
+            self._sheets.put(key, sheet, sheet.nbytes)
+        return sheet
+
+    def _paint(self, request: ViewRequest) -> bool:
+        """Paint and deliver, unless that would show something older or nothing new; False if
+        the request's light is not all there."""
+        shown = self._shown.setdefault(request.session, _Shown())
+        current = self._state.views.get(request.session)
+        if current is None or current.viewport != request.viewport:
+            return False
+        if current.digest != request.digest or request.order < shown.order:
+            return False
+        drawing = self._state.drawing(request.digest)
+        if drawing is None:
+            return False
+        if request.viewport.show == "lit":
+            return self._paint_lit(request, drawing, shown)
+        if not _is_shown(request, drawing.detail, shown):
+            self._show(request, drawing.detail, shown, _view(drawing, request), _is_full(drawing))
+        return True
+
+    def _paint_lit(self, request: ViewRequest, drawing: PreparedDrawing, shown: _Shown) -> bool:
+        view = request.resolve(drawing)
+        if view is None:
+            return False
+        found = [self._state.lights.get(contribution) for contribution in view.contributions]
+        lights = [light for light in found if light is not None]
+        if len(lights) < len(found):
+            return False
+        pairs = zip(view.contributions, lights, strict=True)
+        content = (drawing.detail, *((c.key, light.level, light.amounts) for c, light in pairs))
+        if _is_shown(request, content, shown):
+            return True
+        converged = _is_full(drawing) and all(
+            self._state.lights.level(contribution) >= CONVERGED
+            for contribution in view.contributions
+        )
+        picture = self._composite(request, drawing, view, lights)
+        spp = min((light.spp for light in lights), default=0)
+        self._show(request, content, shown, picture, converged, spp)
+        return True
+
+    def _show(
+        self,
+        request: ViewRequest,
+        content: Hashable,
+        shown: _Shown,
+        picture: Picture,
+        converged: bool,
+        spp: int = 0,
+    ) -> None:
+        same = shown.order == request.order and shown.digest == request.digest
+        shown.passes = shown.passes + 1 if same else 0
+        shown.order, shown.digest, shown.content = request.order, request.digest, content
+        self._deliver(PreviewImage(request, shown.passes, spp, converged, picture))
+
+    def _composite(
+        self,
+        request: ViewRequest,
+        drawing: PreparedDrawing,
+        view: ResolvedView,
+        lights: Sequence[AccumulatedLight],
+    ) -> Picture:
+        pairs = [
+            (contribution.subject, contribution.weight, light)
+            for contribution, light in zip(view.contributions, lights, strict=True)
+        ]
+        character = [(weight, light) for subject, weight, light in pairs if subject == "figure"]
+        ground = [(weight, light) for subject, weight, light in pairs if subject == "floor"]
+        light = Light(
+            diffuse=add_up([(weight, light.first) for weight, light in character]),
+            glossy=add_up([(weight, light.second) for weight, light in character]),
+            figure=view.character,
+            floor=_shadow(ground),
+            ground=(0.0, 0.0, float(drawing.size[0]), float(drawing.size[1])),
+        )
+        sheet = self.prepare(request, drawing)
+        return light_sheet(sheet, request.viewport.crop, light, view.scene)
+
+
+def _is_full(drawing: PreparedDrawing) -> bool:
+    return drawing.detail == "full"
+
+
+def _is_shown(request: ViewRequest, content: Hashable, shown: _Shown) -> bool:
+    return (shown.order, shown.digest, shown.content) == (request.order, request.digest, content)
+
+
+def _shadow(
+    ground: Sequence[tuple[NDArray[np.float32], AccumulatedLight]],
+) -> NDArray[np.float32] | None:
+    """The floor's light with the character over that without, all contributions together."""
+    if not ground:
+        return None
+    cast = add_up([(weight, light.first) for weight, light in ground])
+    free = add_up([(weight, light.second) for weight, light in ground])
+    return np.asarray((cast + FAINT) / (free + FAINT))
+
+
+def _view(drawing: PreparedDrawing, request: ViewRequest) -> Picture:
+    """The drawing's normals or relief in the viewport's crop, opaque in the character."""
+    if request.viewport.show == "normals":
+        colour = drawing.normals
+    else:
+        low, high = float(drawing.height.min()), float(drawing.height.max())
+        grey = np.clip((drawing.height - low) / max(high - low, 1e-6), 0, 1) * 255
+        colour = np.repeat(np.rint(grey)[..., None], 3, axis=2).astype(np.uint8)
+    alpha = drawing.mask.astype(np.uint8)[..., None]
+    picture = np.concatenate([colour * alpha, alpha * 255], axis=2)
+    scale = drawing.size[0] / picture.shape[1]
+    x, y, width, height = (value / scale for value in request.viewport.crop)
+    return cut_picture(picture, (x, y, width, height), request.viewport.size)

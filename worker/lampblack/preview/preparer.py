@@ -1,0 +1,112 @@
+"""The preparer: a thread that prepares drawings to be lit, the most urgent first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+
+import numpy as np
+
+from ..drawing import Drawing, DrawingPlanes, Palette
+from ..errors import LampblackError
+from ..pipeline import Pipeline
+from ..scene import default_scene
+from ..warning_collector import collect_warnings
+from .prepared import PreparedDrawing, prepare_full, prepare_quick
+from .state import DrawingKey, PreviewState
+
+
+class _SupersededError(Exception):
+    """Something more urgent came up."""
+
+
+class Preparer:
+    """Works off ``state.wanted``.
+
+    Args:
+        pipeline: predicts and inflates; its renderer is not used.
+        done: takes the digest of every drawing that got on, its palette once that is found,
+            and the warnings met on the way.
+    """
+
+    def __init__(
+        self,
+        state: PreviewState,
+        pipeline: Pipeline,
+        done: Callable[[str, Palette | None, list[str]], None],
+    ) -> None:
+        self._state = state
+        self._pipeline = pipeline
+        self._done = done
+        self._decomposed: tuple[str, Drawing] | None = None
+
+    def run(self) -> None:
+        """Prepare drawings until the state closes."""
+        self._warm_up()
+        while True:
+            with self._state.condition:
+                self._state.condition.wait_for(lambda: self._state.closing or self._next())
+            if self._state.closing:
+                return
+            self.step()
+
+    def step(self) -> bool:
+        """Prepare the most urgent drawing; False if there is none, or its planes are missing."""
+        key = self._next()
+        planes = None if key is None else self._state.planes.get(key[0])
+        if key is None or planes is None:
+            return False
+        digest, detail = key
+        try:
+            if detail == "quick":
+                with collect_warnings():
+                    prepared = prepare_quick(digest, planes, self._pipeline)
+            else:
+                prepared = self._prepare_full(key, planes)
+        except _SupersededError:
+            return True
+        except Exception as error:  # one drawing's trouble must not end all previews
+            self._state.fail(digest, error)
+        else:
+            self._state.drawings.put(key, prepared, prepared.nbytes)
+            if detail == "full":
+                self._state.drawings.drop((digest, "quick"))
+        self._done(digest, None, [])
+        return True
+
+    def _warm_up(self) -> None:
+        """Load the network and what is compiled, before the first drawing comes."""
+        disk = np.zeros((64, 64, 4), np.uint8)
+        disk[12:52, 12:52] = 120, 120, 120, 255
+        with collect_warnings(), suppress(LampblackError):
+            prepare_quick("", DrawingPlanes(disk), self._pipeline).surface(default_scene(64, 64))
+
+    def _next(self) -> DrawingKey | None:
+        """The most urgent drawing that is missing and can be prepared."""
+        for key in self._state.wanted:
+            digest, _ = key
+            if key in self._state.drawings or self._state.failure(digest) is not None:
+                continue
+            if digest in self._state.planes:
+                return key
+        return None
+
+    def _prepare_full(self, key: DrawingKey, planes: DrawingPlanes) -> PreparedDrawing:
+        """Raises _SupersededError: something more urgent came up."""
+        digest, _ = key
+        if self._decomposed is None or self._decomposed[0] != digest:
+            with collect_warnings() as warnings:
+                drawing = planes.decompose()
+            self._decomposed = digest, drawing
+            self._done(digest, drawing.palette, warnings)
+
+        def give_way(share: float) -> None:
+            if self._state.closing or self._next() != key:
+                raise _SupersededError
+
+        drawing = self._decomposed[1]
+        give_way(0)
+        self._pipeline.height(drawing, give_way)
+        prepared = prepare_full(digest, drawing, self._pipeline)
+        self._decomposed = None
+        return prepared

@@ -1,0 +1,284 @@
+"""The tracer: a thread that drives the renderer of previews, the most urgent light first."""
+
+from __future__ import annotations
+
+import time
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Sequence
+from contextlib import suppress
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
+
+from ..errors import RenderError, RenderRestartedError
+from ..render import Expose, Surface
+from ..scene import AreaLight, Canvas, Scene
+from ..surface import Relief
+from .contribution import LightContribution, surface_key
+from .light_store import AccumulatedLight
+from .painter import Painter
+from .prepared import PreparedDrawing
+from .refinement import (
+    CONVERGED,
+    FIRST_AMBIENT,
+    FIRST_FLOOR,
+    FIRST_FLOOR_AMBIENT,
+    LOW,
+    MOVING,
+    PASSING,
+    RefinementLevel,
+)
+from .request import ResolvedView, ViewRequest
+from .state import PreviewState
+
+REST_SECONDS = 0.1
+"""Stillness after which light is refined."""
+MOST_SECONDS = 0.036
+"""Longest that one light's pass should take while something changes."""
+TICK_SECONDS = 1.0
+MAX_SURFACES = 6
+MAX_FAILURES = 3
+
+
+class PreviewRenderer(Protocol):
+    """What the tracer needs of a renderer; see ``RenderChild``."""
+
+    @property
+    def alive(self) -> bool: ...
+
+    @property
+    def pid(self) -> int | None: ...
+
+    def start(self) -> None: ...
+
+    def expose(self, surface: Surface, job: Expose) -> tuple[NDArray[np.float32], ...]: ...
+
+    def kill(self) -> None: ...
+
+    def close(self) -> None: ...
+
+
+class Tracer:
+    """Keeps the light of what is wanted traced: coarse at once, then finer while all is still,
+    then that of the frames ahead, then nothing.
+
+    Args:
+        renderer: the tracer closes it in the end.
+        report: takes the loss of the renderer, for everybody who looks at something.
+    """
+
+    def __init__(
+        self,
+        state: PreviewState,
+        painter: Painter,
+        renderer: PreviewRenderer,
+        report: Callable[[RenderError], None],
+    ) -> None:
+        self._state = state
+        self._painter = painter
+        self._renderer = renderer
+        self._report = report
+        self._surfaces: OrderedDict[Hashable, Surface] = OrderedDict()
+        self._failures: dict[Hashable, int] = {}
+        self._losses = 0
+        self._pace = len(MOVING) - 1
+        self._quick = 0
+
+    def run(self) -> None:
+        """Trace until the state closes."""
+        self._warm_up()
+        while not self._state.closing:
+            if not self.step():
+                self._rest()
+        self._renderer.close()
+
+    def step(self) -> bool:
+        """Do the most urgent piece of work; False if there is none. A lost renderer is started
+        again."""
+        try:
+            if not self._renderer.alive:
+                raise RenderError("The renderer stopped unexpectedly.")
+            return self._trace_most_urgent()
+        except RenderError as error:
+            self._recover(error)
+        except Exception as error:  # one scene's trouble must not end all previews
+            self._recover(RenderError("A preview could not be made.", details=repr(error)))
+        return True
+
+    def _rest(self) -> None:
+        """Wait for a change, or for the stillness after one."""
+        with self._state.condition:
+            if self._state.closing:
+                return
+            self._state.renderer = "idle"
+            still = self._state.still_for()
+            self._state.condition.wait(
+                REST_SECONDS - still if still < REST_SECONDS else TICK_SECONDS
+            )
+
+    def _trace_most_urgent(self) -> bool:
+        views = [view for view in self._state.views.values() if view.viewport.show == "lit"]
+        for view in views:
+            if self._show(view):
+                return True
+        if self._state.still_for() < REST_SECONDS:
+            return False
+        for level in (LOW, CONVERGED):
+            for view in views:
+                if self._refine(view, level):
+                    return True
+        return self._look_ahead(views)
+
+    def _look_ahead(self, views: Sequence[ViewRequest]) -> bool:
+        """Light the frames that may be looked at next, for as long as there is room."""
+        lights = self._state.lights
+        if lights.full:
+            found = [self._resolve(request) for request in (*views, *self._state.ahead)]
+            lights.keep(c for _, view in filter(None, found) for c in view.contributions)
+        for request in self._state.ahead:
+            if not lights.full and self._refine(request, LOW):
+                drawing = self._state.drawing(request.digest)
+                if drawing is not None:
+                    self._painter.prepare(request, drawing)
+                return True
+        return False
+
+    def _show(self, request: ViewRequest) -> bool:
+        """Trace whatever cannot be shown at all yet."""
+        found = self._resolve(request)
+        if found is None:
+            return False
+        drawing, view = found
+        missing = [c for c in view.contributions if self._is_below(c, PASSING)]
+        if not missing:
+            return False
+        surface = self._surface(drawing, view.scene)
+        self._state.renderer = "working"
+        for contribution in missing:
+            begin = time.perf_counter()
+            self._accumulate(contribution, surface, self._first_level(contribution), PASSING)
+            if contribution.light is not None and contribution.subject == "figure":
+                self._keep_pace(time.perf_counter() - begin)
+        self._painter.offer(request)
+        return True
+
+    def _refine(self, request: ViewRequest, level: int) -> bool:
+        """Bring one contribution of the request up to ``level``, unless something else comes
+        up."""
+        found = self._resolve(request)
+        if found is None:
+            return False
+        drawing, view = found
+        if level > LOW and drawing.detail == "quick":
+            return False
+        for contribution in view.contributions:
+            if not self._is_below(contribution, level):
+                continue
+            self._state.renderer = "working"
+            surface = self._surface(drawing, view.scene)
+            if self._accumulate(contribution, surface, contribution.refinement[level - 1], level):
+                self._painter.offer(request)
+            return True
+        return False
+
+    def _resolve(self, request: ViewRequest) -> tuple[PreparedDrawing, ResolvedView] | None:
+        """The drawing and the scene on it; None if there is no scene, or the drawing is not
+        prepared."""
+        drawing = self._state.drawing(request.digest)
+        view = None if drawing is None else request.resolve(drawing)
+        return None if drawing is None or view is None else (drawing, view)
+
+    def _accumulate(
+        self, contribution: LightContribution, surface: Surface, how: RefinementLevel, level: int
+    ) -> bool:
+        """Trace ``contribution``; False if something else came up before it was done."""
+        began = self._state.changes
+        try:
+            for first in range(0, how.spp, how.at_once):
+                count = min(how.at_once, how.spp - first)
+                whole = count == how.spp
+                found = self._renderer.expose(
+                    surface, contribution.exposure(how, first, count, develop=whole)
+                )
+                if level >= LOW and (self._state.changes != began or self._state.closing):
+                    return False
+            if not found:
+                found = self._renderer.expose(
+                    surface, contribution.exposure(how, how.spp, 0, develop=True)
+                )
+        except RenderError:
+            self._failures[contribution.key] = self._failures.get(contribution.key, 0) + 1
+            raise
+        if level < LOW and contribution.subject == "floor":
+            # So few samples leave blotches; a soft shadow moves better than a ragged one.
+            found = tuple(gaussian_filter(half, (0.8, 0.8, 0)) for half in found)
+        first_half, second_half = found
+        light = AccumulatedLight(level, how.spp, contribution.amounts, first_half, second_half)
+        self._state.lights.put(contribution, light)
+        self._losses = 0
+        return True
+
+    def _is_below(self, contribution: LightContribution, level: int) -> bool:
+        """Whether there is only light coarser than ``level``, and the renderer can trace finer."""
+        return (
+            self._state.lights.level(contribution) < level
+            and self._failures.get(contribution.key, 0) < MAX_FAILURES
+        )
+
+    def _first_level(self, contribution: LightContribution) -> RefinementLevel:
+        if contribution.subject == "floor":
+            return FIRST_FLOOR if contribution.light else FIRST_FLOOR_AMBIENT
+        return MOVING[self._pace] if contribution.light else FIRST_AMBIENT
+
+    def _keep_pace(self, seconds: float) -> None:
+        """Choose how fine the next passing trace is by how long this one took."""
+        if seconds > MOST_SECONDS:
+            self._pace, self._quick = max(0, self._pace - 1), 0
+        elif seconds < MOST_SECONDS * 0.6:
+            self._quick += 1
+            if self._quick >= 8:
+                self._pace, self._quick = min(len(MOVING) - 1, self._pace + 1), 0
+
+    def _surface(self, drawing: PreparedDrawing, scene: Scene) -> Surface:
+        key = surface_key(scene, drawing)
+        if key not in self._surfaces:
+            self._surfaces[key] = drawing.surface(scene)
+            if len(self._surfaces) > MAX_SURFACES:
+                self._surfaces.popitem(last=False)
+        self._surfaces.move_to_end(key)
+        return self._surfaces[key]
+
+    def _warm_up(self) -> None:
+        """Start the renderer, and have it trace a little, so that all it needs is loaded."""
+        canvas, size = Canvas(8, 8), (8, 8)
+        corners = np.array([[0, 0, 0], [8, 0, 0], [0, 8, 0]], np.float32)
+        relief = Relief(corners, np.array([[0, 2, 1]], np.int32))
+        white = np.ones((3, 3), np.float32), np.zeros(3, np.float32), np.ones(3, np.float32)
+        light = AreaLight(4, 4, 4, 4)
+        job = Expose(canvas, (0, 0, 8, 8), size, light, None, "figure", 1, 0, 1, True)
+        self._state.renderer = "starting"
+        try:
+            self._renderer.expose(Surface(relief, *white), job)
+        except RenderError as error:
+            self._recover(error)
+        self._state.renderer = "idle"
+
+    def _recover(self, error: RenderError) -> None:
+        """Start the renderer again and report it, once; when it is lost again and again, wait
+        longer each time, so that reports come to an end."""
+        if self._state.closing:
+            return
+        self._losses += 1
+        self._state.renderer = "restarting"
+        if self._losses <= MAX_FAILURES:
+            kind = RenderError if self._losses == MAX_FAILURES else RenderRestartedError
+            self._report(kind("", details=f"{error.what} {error.details}"))
+        else:
+            with self._state.condition:
+                self._state.condition.wait_for(
+                    lambda: self._state.closing, min(30.0, 0.5 * 2 ** (self._losses - MAX_FAILURES))
+                )
+        with suppress(OSError):  # the next step finds that there is none, and tries again
+            self._renderer.start()

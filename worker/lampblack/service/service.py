@@ -1,0 +1,183 @@
+"""The worker behind the socket: its sessions, its preview, and its render jobs."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+from ..drawing import Palette
+from ..pipeline import Pipeline
+from ..preview import LivePreview, PreviewImage, PreviewRenderer
+from ..protocol import Bye, Crop, Image, Pixels, Role, Status, encode
+from ..protocol.fields import Message
+from .faults import fault_message
+from .job import Jobs
+from .memory import resident_bytes
+from .outbox import Frames
+from .planner import Planner
+from .session import Session
+
+STATUS_SECONDS = 1.0
+
+
+class Transport(Protocol):
+    """How messages reach clients; see ``RouterSocket``."""
+
+    def put(self, identity: bytes, frames: Frames, *, picture: bool = False) -> None: ...
+
+    def try_to_send(self, identity: bytes, frames: Frames) -> bool | None: ...
+
+    def forget(self, identity: bytes) -> None: ...
+
+    def post(self, event: Callable[[], None]) -> None: ...
+
+
+class Service:
+    """All that clients share. Its methods are for the thread that owns the transport, but for
+    those that ``PreviewListener`` names, ``deliver`` and ``request_planes``.
+
+    Args:
+        renderer, pipeline: of previews.
+        job_pipeline: of render jobs; closed with them.
+        clock: monotonic seconds.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        renderer: PreviewRenderer,
+        pipeline: Pipeline,
+        job_pipeline: Pipeline,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.sessions: dict[bytes, Session] = {}
+        self.preview = LivePreview(renderer, pipeline, self, clock)
+        self.planner = Planner(self.preview.state, self.preview.painter, self.sessions, self.send)
+        self.jobs = Jobs(self.preview.state, job_pipeline, self.request_planes, self.deliver)
+        self._transport = transport
+        self._clock = clock
+        self._began = clock()
+        self._next_status = 0.0
+        self._states: tuple[object, ...] = ()
+        self._job_thread = threading.Thread(target=self.jobs.run, name="Jobs", daemon=True)
+
+    def start(self) -> None:
+        """Start all threads."""
+        self.preview.start()
+        self._job_thread.start()
+
+    def close(self) -> None:
+        """End all threads and renderers."""
+        self.jobs.close()
+        self.preview.close()
+        if self._job_thread.is_alive():
+            self._job_thread.join(2)
+
+    def turn(self) -> None:
+        """Plan what has changed, and send the status when it is due."""
+        self.planner.plan()
+        self._send_status()
+
+    @property
+    def patience(self) -> float:
+        """Seconds until something is due."""
+        return max(0.0, self._next_status - self._clock())
+
+    def send(self, session: Session, message: Message) -> None:
+        """Queue a message for a session."""
+        self._transport.put(session.identity, encode(message))
+
+    def answer(self, identity: bytes, message: Message) -> None:
+        """Answer a client, greeted or not."""
+        if identity in self.sessions:
+            self._transport.put(identity, encode(message))
+        else:
+            self._transport.try_to_send(identity, encode(message))
+
+    def deliver(
+        self, name: str, message: Message, planes: Mapping[Role, Pixels] | None = None
+    ) -> None:
+        """Send to the session ``name``; any thread may call this."""
+        frames = encode(message, planes)
+        picture = isinstance(message, Image)
+
+        def put() -> None:
+            for session in self.sessions.values():
+                if session.name == name:
+                    self._transport.put(session.identity, frames, picture=picture)
+
+        self._transport.post(put)
+
+    def request_planes(self, name: str, digest: str) -> None:
+        """Ask the session ``name`` for a drawing that a job needs; any thread may call this."""
+
+        def ask() -> None:
+            for session in self.sessions.values():
+                if session.name == name and digest not in self.preview.state.planes:
+                    self.planner.ask(session, digest)
+
+        self._transport.post(ask)
+
+    def on_picture(self, image: PreviewImage) -> None:
+        """Send a picture of the preview."""
+        request, viewport = image.request, image.request.viewport
+        x, y, width, height = viewport.crop
+        message = Image(
+            request=viewport.request,
+            frame=viewport.frame,
+            digest=request.digest,
+            revision=request.revision,
+            show=viewport.show,
+            pass_=image.passes,
+            spp=image.spp,
+            converged=image.converged,
+            crop=Crop(x=x, y=y, width=width, height=height),
+        )
+        self.deliver(request.session, message, {"picture": image.picture})
+
+    def on_drawing(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
+        """Take note of a drawing that got on."""
+        self._transport.post(lambda: self.planner.note(digest, palette, warnings))
+
+    def on_preview_error(self, session: str, error: Exception) -> None:
+        """Send an error of the preview."""
+        self.deliver(session, fault_message(error))
+
+    def part_with(self, session: Session) -> None:
+        """Drop a client and what it asked for."""
+        self.sessions.pop(session.identity, None)
+        self._transport.forget(session.identity)
+        self.jobs.cancel(session.name)
+        self.preview.painter.forget(session.name)
+        self.planner.changed()
+
+    def say_goodbye(self) -> None:
+        """Tell every client that the worker leaves."""
+        for session in self.sessions.values():
+            self.send(session, Bye(reason="The worker leaves."))
+
+    def hurry_status(self) -> None:
+        """Send the next status at once."""
+        self._next_status = 0.0
+
+    def _send_status(self) -> None:
+        states = self.preview.state.renderer, self.jobs.state, self.jobs.waiting
+        now = self._clock()
+        if now < self._next_status and (states == self._states or now < self._next_status - 0.8):
+            return
+        self._states, self._next_status = states, now + STATUS_SECONDS
+        memory = resident_bytes([self.preview.renderer.pid, self.jobs.renderer_pid])
+        for session in self.sessions.values():
+            status = Status(
+                uptime_ms=int((now - self._began) * 1000),
+                revision=session.revision,
+                preview=self.preview.state.renderer,
+                job=self.jobs.state,
+                jobs_waiting=self.jobs.waiting,
+                frames_held=self.planner.frames_held(session),
+                frames_lit=self.planner.frames_lit(session),
+                memory_bytes=memory,
+            )
+            self.send(session, status)
