@@ -105,6 +105,13 @@ class FakeTransport:
         self.events.append(event)
 
 
+def pipeline_with(predictor: FakePredictor, folder: Path) -> Pipeline:
+    """A pipeline that caches in ``folder``."""
+    pipeline = Pipeline(ArrayCache(folder))
+    pipeline.__dict__["_predictor"] = predictor
+    return pipeline
+
+
 class Stage:
     """A service of fakes, and the hands of its clients.
 
@@ -117,11 +124,9 @@ class Stage:
         self.renderer, self.predictor = FakeRenderer(), FakePredictor()
         self.transport = FakeTransport()
         self.now = 1000.0
-        cache = ArrayCache(folder)
-        pipeline = Pipeline(cache)
-        pipeline.__dict__["_predictor"] = self.predictor
+        previews, jobs = (pipeline_with(self.predictor, folder) for _ in range(2))
         self.service = Service(
-            self.transport, self.renderer, pipeline, Pipeline(cache), clock or (lambda: self.now)
+            self.transport, self.renderer, previews, jobs, clock or (lambda: self.now)
         )
         self._drawings: dict[str, NDArray[np.uint8]] = {}
         self._numbers: dict[bytes, int] = defaultdict(int)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +50,7 @@ class _Shown:
     passes: int = 0
 
 
+@dataclass
 class Painter:
     """Paints the newest request of each session whose light is all there.
 
@@ -58,20 +59,14 @@ class Painter:
         report: takes the session and what went wrong with its picture.
     """
 
-    def __init__(
-        self,
-        state: PreviewState,
-        deliver: Callable[[PreviewImage], None],
-        report: Callable[[str, Exception], None],
-    ) -> None:
-        self._state = state
-        self._deliver = deliver
-        self._report = report
-        self._offers: dict[str, dict[tuple[int, int], ViewRequest]] = {}
-        self._shown: dict[str, _Shown] = {}
-        self._sheets: BoundedStore[Hashable, Sheet] = BoundedStore(128 * MIB)
-        self._condition = threading.Condition()
-        self._closing = False
+    state: PreviewState
+    deliver: Callable[[PreviewImage], None]
+    report: Callable[[str, Exception], None]
+    _offers: dict[str, dict[tuple[int, int], ViewRequest]] = field(default_factory=dict)
+    _shown: dict[str, _Shown] = field(default_factory=dict)
+    _sheets: BoundedStore[Hashable, Sheet] = field(default_factory=lambda: BoundedStore(128 * MIB))
+    _condition: threading.Condition = field(default_factory=threading.Condition)
+    _closing: bool = False
 
     def offer(self, request: ViewRequest) -> None:
         """Paint ``request`` if nothing newer can be painted."""
@@ -112,7 +107,7 @@ class Painter:
                 if self._paint(requests[order]):
                     break
         except Exception as error:  # one client's trouble is not the others'
-            self._report(session, error)
+            self.report(session, error)
         return True
 
     def prepare(self, request: ViewRequest, drawing: PreparedDrawing) -> Sheet:
@@ -131,12 +126,12 @@ class Painter:
         """Paint and deliver, unless that would show something older or nothing new; False if
         the request's light is not all there."""
         shown = self._shown.setdefault(request.session, _Shown())
-        current = self._state.views.get(request.session)
+        current = self.state.views.get(request.session)
         if current is None or current.viewport != request.viewport:
             return False
         if current.digest != request.digest or request.order < shown.order:
             return False
-        drawing = self._state.drawing(request.digest)
+        drawing = self.state.drawing(request.digest)
         if drawing is None:
             return False
         if request.viewport.show == "lit":
@@ -149,7 +144,7 @@ class Painter:
         view = request.resolve(drawing)
         if view is None:
             return False
-        found = [self._state.lights.get(contribution) for contribution in view.contributions]
+        found = [self.state.lights.get(contribution) for contribution in view.contributions]
         lights = [light for light in found if light is not None]
         if len(lights) < len(found):
             return False
@@ -158,7 +153,7 @@ class Painter:
         if _is_shown(request, content, shown):
             return True
         converged = _is_full(drawing) and all(
-            self._state.lights.level(contribution) >= CONVERGED
+            self.state.lights.level(contribution) >= CONVERGED
             for contribution in view.contributions
         )
         picture = self._composite(request, drawing, view, lights)
@@ -178,7 +173,7 @@ class Painter:
         same = shown.order == request.order and shown.digest == request.digest
         shown.passes = shown.passes + 1 if same else 0
         shown.order, shown.digest, shown.content = request.order, request.digest, content
-        self._deliver(PreviewImage(request, shown.passes, spp, converged, picture))
+        self.deliver(PreviewImage(request, shown.passes, spp, converged, picture))
 
     def _composite(
         self,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,6 +21,7 @@ class _SupersededError(Exception):
     """Something more urgent came up."""
 
 
+@dataclass
 class Preparer:
     """Works off ``state.wanted``.
 
@@ -29,49 +31,43 @@ class Preparer:
             and the warnings met on the way.
     """
 
-    def __init__(
-        self,
-        state: PreviewState,
-        pipeline: Pipeline,
-        done: Callable[[str, Palette | None, list[str]], None],
-    ) -> None:
-        self._state = state
-        self._pipeline = pipeline
-        self._done = done
-        self._decomposed: tuple[str, Drawing] | None = None
+    state: PreviewState
+    pipeline: Pipeline
+    done: Callable[[str, Palette | None, list[str]], None]
+    _decomposed: tuple[str, Drawing] | None = None
 
     def run(self) -> None:
         """Prepare drawings until the state closes."""
         self._warm_up()
         while True:
-            with self._state.condition:
-                self._state.condition.wait_for(lambda: self._state.closing or self._next())
-            if self._state.closing:
+            with self.state.condition:
+                self.state.condition.wait_for(lambda: self.state.closing or self._next())
+            if self.state.closing:
                 return
             self.step()
 
     def step(self) -> bool:
         """Prepare the most urgent drawing; False if there is none, or its planes are missing."""
         key = self._next()
-        planes = None if key is None else self._state.planes.get(key[0])
+        planes = None if key is None else self.state.planes.get(key[0])
         if key is None or planes is None:
             return False
         digest, detail = key
         try:
             if detail == "quick":
                 with collect_warnings():
-                    prepared = prepare_quick(digest, planes, self._pipeline)
+                    prepared = prepare_quick(digest, planes, self.pipeline)
             else:
                 prepared = self._prepare_full(key, planes)
         except _SupersededError:
             return True
         except Exception as error:  # one drawing's trouble must not end all previews
-            self._state.fail(digest, error)
+            self.state.fail(digest, error)
         else:
-            self._state.drawings.put(key, prepared, prepared.nbytes)
+            self.state.drawings.put(key, prepared, prepared.nbytes)
             if detail == "full":
-                self._state.drawings.drop((digest, "quick"))
-        self._done(digest, None, [])
+                self.state.drawings.drop((digest, "quick"))
+        self.done(digest, None, [])
         return True
 
     def _warm_up(self) -> None:
@@ -79,15 +75,15 @@ class Preparer:
         disk = np.zeros((64, 64, 4), np.uint8)
         disk[12:52, 12:52] = 120, 120, 120, 255
         with collect_warnings(), suppress(LampblackError):
-            prepare_quick("", DrawingPlanes(disk), self._pipeline).surface(default_scene(64, 64))
+            prepare_quick("", DrawingPlanes(disk), self.pipeline).surface(default_scene(64, 64))
 
     def _next(self) -> DrawingKey | None:
         """The most urgent drawing that is missing and can be prepared."""
-        for key in self._state.wanted:
+        for key in self.state.wanted:
             digest, _ = key
-            if key in self._state.drawings or self._state.failure(digest) is not None:
+            if key in self.state.drawings or self.state.failure(digest) is not None:
                 continue
-            if digest in self._state.planes:
+            if digest in self.state.planes:
                 return key
         return None
 
@@ -98,15 +94,15 @@ class Preparer:
             with collect_warnings() as warnings:
                 drawing = planes.decompose()
             self._decomposed = digest, drawing
-            self._done(digest, drawing.palette, warnings)
+            self.done(digest, drawing.palette, warnings)
 
         def give_way(share: float) -> None:
-            if self._state.closing or self._next() != key:
+            if self.state.closing or self._next() != key:
                 raise _SupersededError
 
         drawing = self._decomposed[1]
         give_way(0)
-        self._pipeline.height(drawing, give_way)
-        prepared = prepare_full(digest, drawing, self._pipeline)
+        self.pipeline.height(drawing, give_way)
+        prepared = prepare_full(digest, drawing, self.pipeline)
         self._decomposed = None
         return prepared

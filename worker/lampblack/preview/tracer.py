@@ -6,6 +6,7 @@ import time
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -60,6 +61,7 @@ class PreviewRenderer(Protocol):
     def close(self) -> None: ...
 
 
+@dataclass
 class Tracer:
     """Keeps the light of what is wanted traced: coarse at once, then finer while all is still,
     then that of the frames ahead, then nothing.
@@ -69,36 +71,29 @@ class Tracer:
         report: takes the loss of the renderer, for everybody who looks at something.
     """
 
-    def __init__(
-        self,
-        state: PreviewState,
-        painter: Painter,
-        renderer: PreviewRenderer,
-        report: Callable[[RenderError], None],
-    ) -> None:
-        self._state = state
-        self._painter = painter
-        self._renderer = renderer
-        self._report = report
-        self._surfaces: OrderedDict[Hashable, Surface] = OrderedDict()
-        self._failures: dict[Hashable, int] = {}
-        self._losses = 0
-        self._pace = len(MOVING) - 1
-        self._quick = 0
+    state: PreviewState
+    painter: Painter
+    renderer: PreviewRenderer
+    report: Callable[[RenderError], None]
+    _surfaces: OrderedDict[Hashable, Surface] = field(default_factory=OrderedDict)
+    _failures: dict[Hashable, int] = field(default_factory=dict)
+    _losses: int = 0
+    _pace: int = len(MOVING) - 1
+    _quick: int = 0
 
     def run(self) -> None:
         """Trace until the state closes."""
         self._warm_up()
-        while not self._state.closing:
+        while not self.state.closing:
             if not self.step():
                 self._rest()
-        self._renderer.close()
+        self.renderer.close()
 
     def step(self) -> bool:
         """Do the most urgent piece of work; False if there is none. A lost renderer is started
         again."""
         try:
-            if not self._renderer.alive:
+            if not self.renderer.alive:
                 raise RenderError("The renderer stopped unexpectedly.")
             return self._trace_most_urgent()
         except RenderError as error:
@@ -109,21 +104,21 @@ class Tracer:
 
     def _rest(self) -> None:
         """Wait for a change, or for the stillness after one."""
-        with self._state.condition:
-            if self._state.closing:
+        with self.state.condition:
+            if self.state.closing:
                 return
-            self._state.renderer = "idle"
-            still = self._state.still_for()
-            self._state.condition.wait(
+            self.state.renderer = "idle"
+            still = self.state.still_for()
+            self.state.condition.wait(
                 REST_SECONDS - still if still < REST_SECONDS else TICK_SECONDS
             )
 
     def _trace_most_urgent(self) -> bool:
-        views = [view for view in self._state.views.values() if view.viewport.show == "lit"]
+        views = [view for view in self.state.views.values() if view.viewport.show == "lit"]
         for view in views:
             if self._show(view):
                 return True
-        if self._state.still_for() < REST_SECONDS:
+        if self.state.still_for() < REST_SECONDS:
             return False
         for level in (LOW, CONVERGED):
             for view in views:
@@ -133,15 +128,15 @@ class Tracer:
 
     def _look_ahead(self, views: Sequence[ViewRequest]) -> bool:
         """Light the frames that may be looked at next, for as long as there is room."""
-        lights = self._state.lights
+        lights = self.state.lights
         if lights.full:
-            found = [self._resolve(request) for request in (*views, *self._state.ahead)]
+            found = [self._resolve(request) for request in (*views, *self.state.ahead)]
             lights.keep(c for _, view in filter(None, found) for c in view.contributions)
-        for request in self._state.ahead:
+        for request in self.state.ahead:
             if not lights.full and self._refine(request, LOW):
-                drawing = self._state.drawing(request.digest)
+                drawing = self.state.drawing(request.digest)
                 if drawing is not None:
-                    self._painter.prepare(request, drawing)
+                    self.painter.prepare(request, drawing)
                 return True
         return False
 
@@ -155,13 +150,13 @@ class Tracer:
         if not missing:
             return False
         surface = self._surface(drawing, view.scene)
-        self._state.renderer = "working"
+        self.state.renderer = "working"
         for contribution in missing:
             begin = time.perf_counter()
             self._accumulate(contribution, surface, self._first_level(contribution), PASSING)
             if contribution.light is not None and contribution.subject == "figure":
                 self._keep_pace(time.perf_counter() - begin)
-        self._painter.offer(request)
+        self.painter.offer(request)
         return True
 
     def _refine(self, request: ViewRequest, level: int) -> bool:
@@ -176,17 +171,17 @@ class Tracer:
         for contribution in view.contributions:
             if not self._is_below(contribution, level):
                 continue
-            self._state.renderer = "working"
+            self.state.renderer = "working"
             surface = self._surface(drawing, view.scene)
             if self._accumulate(contribution, surface, contribution.refinement[level - 1], level):
-                self._painter.offer(request)
+                self.painter.offer(request)
             return True
         return False
 
     def _resolve(self, request: ViewRequest) -> tuple[PreparedDrawing, ResolvedView] | None:
         """The drawing and the scene on it; None if there is no scene, or the drawing is not
         prepared."""
-        drawing = self._state.drawing(request.digest)
+        drawing = self.state.drawing(request.digest)
         view = None if drawing is None else request.resolve(drawing)
         return None if drawing is None or view is None else (drawing, view)
 
@@ -194,18 +189,18 @@ class Tracer:
         self, contribution: LightContribution, surface: Surface, how: RefinementLevel, level: int
     ) -> bool:
         """Trace ``contribution``; False if something else came up before it was done."""
-        began = self._state.changes
+        began = self.state.changes
         try:
             for first in range(0, how.spp, how.at_once):
                 count = min(how.at_once, how.spp - first)
                 whole = count == how.spp
-                found = self._renderer.expose(
+                found = self.renderer.expose(
                     surface, contribution.exposure(how, first, count, develop=whole)
                 )
-                if level >= LOW and (self._state.changes != began or self._state.closing):
+                if level >= LOW and (self.state.changes != began or self.state.closing):
                     return False
             if not found:
-                found = self._renderer.expose(
+                found = self.renderer.expose(
                     surface, contribution.exposure(how, how.spp, 0, develop=True)
                 )
         except RenderError:
@@ -216,14 +211,14 @@ class Tracer:
             found = tuple(gaussian_filter(half, (0.8, 0.8, 0)) for half in found)
         first_half, second_half = found
         light = AccumulatedLight(level, how.spp, contribution.amounts, first_half, second_half)
-        self._state.lights.put(contribution, light)
+        self.state.lights.put(contribution, light)
         self._losses = 0
         return True
 
     def _is_below(self, contribution: LightContribution, level: int) -> bool:
         """Whether there is only light coarser than ``level``, and the renderer can trace finer."""
         return (
-            self._state.lights.level(contribution) < level
+            self.state.lights.level(contribution) < level
             and self._failures.get(contribution.key, 0) < MAX_FAILURES
         )
 
@@ -258,27 +253,27 @@ class Tracer:
         white = np.ones((3, 3), np.float32), np.zeros(3, np.float32), np.ones(3, np.float32)
         light = AreaLight(4, 4, 4, 4)
         job = Expose(canvas, (0, 0, 8, 8), size, light, None, "figure", 1, 0, 1, True)
-        self._state.renderer = "starting"
+        self.state.renderer = "starting"
         try:
-            self._renderer.expose(Surface(relief, *white), job)
+            self.renderer.expose(Surface(relief, *white), job)
         except RenderError as error:
             self._recover(error)
-        self._state.renderer = "idle"
+        self.state.renderer = "idle"
 
     def _recover(self, error: RenderError) -> None:
         """Start the renderer again and report it, once; when it is lost again and again, wait
         longer each time, so that reports come to an end."""
-        if self._state.closing:
+        if self.state.closing:
             return
         self._losses += 1
-        self._state.renderer = "restarting"
+        self.state.renderer = "restarting"
         if self._losses <= MAX_FAILURES:
             kind = RenderError if self._losses == MAX_FAILURES else RenderRestartedError
-            self._report(kind("", details=f"{error.what} {error.details}"))
+            self.report(kind("", details=f"{error.what} {error.details}"))
         else:
-            with self._state.condition:
-                self._state.condition.wait_for(
-                    lambda: self._state.closing, min(30.0, 0.5 * 2 ** (self._losses - MAX_FAILURES))
+            with self.state.condition:
+                self.state.condition.wait_for(
+                    lambda: self.state.closing, min(30.0, 0.5 * 2 ** (self._losses - MAX_FAILURES))
                 )
         with suppress(OSError):  # the next step finds that there is none, and tries again
-            self._renderer.start()
+            self.renderer.start()
