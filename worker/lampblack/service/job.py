@@ -116,7 +116,7 @@ class Jobs:
             self._condition.notify()
 
     def close(self) -> None:
-        """Drop everything; the thread ends with the studio."""
+        """Drop everything; the thread ends with the previews."""
         with self._condition:
             for job in [*self._waiting, *([self._current] if self._current else [])]:
                 job.cancelled = True
@@ -130,7 +130,7 @@ class Jobs:
         return None if child is None else child.pid
 
     def run(self) -> None:
-        """Work until the studio closes."""
+        """Work until the previews close."""
         while True:
             with self._condition:
                 self._condition.wait_for(lambda: self._waiting or self.previews.closing)
