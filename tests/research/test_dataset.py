@@ -14,8 +14,8 @@ from scipy import ndimage
 from shapes import sphere_model
 
 from lampblack.errors import LampblackError
-from lampblack_research.dataset.anatomy.clay import Clay
-from lampblack_research.dataset.anatomy.turned import turned
+from lampblack_research.dataset.anatomy.implicit_surface import ImplicitSurface
+from lampblack_research.dataset.anatomy.lathe import lathe
 from lampblack_research.dataset.build import DatasetOptions, build_dataset, entries
 from lampblack_research.dataset.creatures import creature
 from lampblack_research.dataset.deform import deformed
@@ -92,7 +92,7 @@ def test_made_up_creatures_have_the_normals_of_their_surface() -> None:
 
 
 def test_clay_is_as_exact_as_its_parts() -> None:
-    clay = Clay()
+    clay = ImplicitSurface()
     clay.cone(np.array([-1.0, 0, 0]), 0.5, np.array([1.0, 0, 0]), 0.5, 0.0)
     mesh = clay.mesh(48)
     axis = np.clip(mesh.vertices[:, 0], -1, 1)[:, None] * [1.0, 0, 0]
@@ -105,7 +105,7 @@ def test_clay_is_as_exact_as_its_parts() -> None:
 
 
 def test_a_dent_in_clay_is_hollow() -> None:
-    clay = Clay()
+    clay = ImplicitSurface()
     clay.ellipsoid(np.zeros(3), np.ones(3), 0.0)
     clay.dent(np.array([0, 0, 1.0]), np.full(3, 0.5), 0.05)
     mesh = clay.mesh(64)
@@ -117,7 +117,7 @@ def test_a_dent_in_clay_is_hollow() -> None:
 
 
 def test_a_turned_cylinder_has_a_wall() -> None:
-    mesh = turned(np.array([[1.0, 0.5], [1.0, -0.5]]), 0.1)
+    mesh = lathe(np.array([[1.0, 0.5], [1.0, -0.5]]), 0.1)
     solid = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
     assert solid.is_watertight
     assert solid.volume == pytest.approx(2 * np.pi * (0.1 + np.pi * 0.05**2), rel=0.02)
@@ -193,7 +193,7 @@ def test_viewpoints_are_those_an_artist_draws() -> None:
     assert np.ptp(np.arctan2(looks[:, 0], looks[:, 2])) > 4
 
 
-def test_a_long_figure_grows_to_the_area_of_a_square() -> None:
+def test_a_long_character_grows_to_the_area_of_a_square() -> None:
     pole = sphere_model()
     pole = Model("a/pole", pole.vertices * [0.5, 1, 0.5], pole.faces, pole.corner_normals, False)
     rows, columns = place(pole, view_rotation(0, 0), 100, equal_area=True).size

@@ -72,7 +72,7 @@ def test_bootstrap_tells_a_sure_gain_from_a_chance() -> None:
 
 def test_every_peer_is_measured_on_the_same_drawings(tmp_path: Path) -> None:
     trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
-    table = evaluate(tmp_path, None, dict(PEERS), views=2, figure_px=120)
+    table = evaluate(tmp_path, None, dict(PEERS), views=2, character_px=120)
     assert set(table) == set(PEERS)
     assert table["lumo"]["mean"] < 8 < table["flat"]["mean"]
     assert len({row["truth_tilt"] for row in table.values()}) == 1

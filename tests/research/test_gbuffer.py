@@ -11,7 +11,7 @@ from shapes import angles, ball, sphere_model
 from lampblack.errors import LampblackError
 from lampblack.surface import visible_faces
 from lampblack_research.dataset.gbuffer import MARGIN, place, trace, view_rotation
-from lampblack_research.dataset.linework import Hand, draw_lines
+from lampblack_research.dataset.linework import LineStyle, draw_lines
 
 
 def test_trace_of_a_sphere_is_exact() -> None:
@@ -35,7 +35,7 @@ def test_views_turn_the_way_the_angles_say() -> None:
 
 def test_line_follows_the_silhouette_of_a_sphere_only() -> None:
     view = trace(sphere_model(4), view_rotation(0, 0), 200)
-    lines = draw_lines(view, Hand(width=3), np.random.default_rng(0))
+    lines = draw_lines(view, LineStyle(width=3), np.random.default_rng(0))
     rim = view.mask & (view.normals[..., 2] < 0.3)
     assert lines[~view.mask].max() == 0
     assert lines[rim].mean() > 0.3

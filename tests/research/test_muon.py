@@ -13,7 +13,7 @@ from lampblack.normals.card import NetworkCard
 from lampblack.normals.networks import build_network
 from lampblack_research.training.checkpoint import Checkpoint, Progress
 from lampblack_research.training.muon import Muon, orthogonal
-from lampblack_research.training.recipe import optimisers
+from lampblack_research.training.recipe import build_optimizers
 
 
 @pytest.mark.parametrize("shape", [(3, 16, 16), (2, 24, 200), (1, 224, 2016)])
@@ -41,9 +41,9 @@ def test_steps_are_of_adams_size_and_go_down(shape: tuple[int, ...]) -> None:
     torch.manual_seed(0)
     weight = nn.Parameter(torch.randn(shape))
     before = weight.detach().clone()
-    optimiser = Muon([weight], lr=0.01, weight_decay=0.0)
+    optimizer = Muon([weight], lr=0.01, weight_decay=0.0)
     (weight.square().sum() / 2).backward()  # type: ignore[no-untyped-call]
-    optimiser.step()
+    optimizer.step()
     moved = weight.detach() - before
     assert moved.square().mean().sqrt() == pytest.approx(0.2 * 0.01, rel=0.35)
     assert (moved * before).sum() < 0
@@ -54,8 +54,8 @@ def test_every_weight_has_one_optimiser(architecture: str) -> None:
     network = build_network(architecture)
     stepped = [
         id(weight)
-        for optimiser in optimisers(network)
-        for group in optimiser.param_groups
+        for optimizer in build_optimizers(network)
+        for group in optimizer.param_groups
         for weight in group["params"]
     ]
     assert sorted(stepped) == sorted(id(weight) for weight in network.parameters())
@@ -67,31 +67,31 @@ class Small(nn.Sequential):
     def __init__(self) -> None:
         super().__init__(nn.Conv2d(2, 16, 3), nn.BatchNorm2d(16), nn.Conv2d(16, 3, 1))
 
-    def steppers(self) -> list[torch.optim.Optimizer]:
+    def optimizers(self) -> list[torch.optim.Optimizer]:
         others = [*self[0].parameters(), *self[1].parameters(), *self[2].parameters()][1:]
         return [Muon([self[0].weight], 0.01, 0.02), torch.optim.AdamW(others, 0.01)]
 
 
-def stepped(network: nn.Module, steppers: list[torch.optim.Optimizer]) -> None:
+def stepped(network: nn.Module, optimizers: list[torch.optim.Optimizer]) -> None:
     network.zero_grad()
     network(torch.linspace(-1, 1, 2 * 2 * 6 * 6).reshape(2, 2, 6, 6)).square().sum().backward()
-    for stepper in steppers:
-        stepper.step()
+    for optimizer in optimizers:
+        optimizer.step()
 
 
 def test_a_run_that_goes_on_takes_the_very_steps_it_would_have_taken(tmp_path: Path) -> None:
     torch.manual_seed(0)
     network, average = Small(), Small()
-    steppers = network.steppers()
+    optimizers = network.optimizers()
     for _ in range(3):
-        stepped(network, steppers)
-    Checkpoint(tmp_path, network, average, steppers, NetworkCard()).save(Progress(3, 1.0, 50.0))
+        stepped(network, optimizers)
+    Checkpoint(tmp_path, network, average, optimizers, NetworkCard()).save(Progress(3, 1.0, 50.0))
     later = Small()
-    others = later.steppers()
+    others = later.optimizers()
     again = Checkpoint(tmp_path, later, Small(), others, NetworkCard())
     assert again.load().step == 3
     for _ in range(2):
-        stepped(network, steppers)
+        stepped(network, optimizers)
         stepped(later, others)
     for name, tensor in network.state_dict().items():
         assert torch.equal(tensor, later.state_dict()[name]), name

@@ -1,4 +1,4 @@
-"""Weights, cards and the trainer: what is saved can be had back; what is foreign is refused."""
+"""The trainer: batches, budget, checkpoints and what it refuses."""
 
 from __future__ import annotations
 
@@ -18,18 +18,22 @@ import trimesh
 from PIL import Image
 
 from lampblack.errors import LampblackError
-from lampblack.normals.card import NetworkCard, load_network, save_network, shipped_weights
+from lampblack.normals.card import NetworkCard, load_network, save_network
 from lampblack.normals.character import LUMO
 from lampblack.normals.networks import build_network
 from lampblack_research.dataset.build import DatasetOptions, build_dataset
 from lampblack_research.dataset.models import find_models, load_model
 from lampblack_research.dataset.triple import Triple
+from lampblack_research.training.character_batches import (
+    CharacterBatches,
+    input_and_truth,
+    place_on_canvas,
+)
+from lampblack_research.training.character_loss import Batch, angles
 from lampblack_research.training.checkpoint import Progress
 from lampblack_research.training.curve import SIZE
-from lampblack_research.training.figure_loss import Batch, angles
-from lampblack_research.training.figures import FigureCourse, figure_of, sample
-from lampblack_research.training.normalisation import retake_statistics
-from lampblack_research.training.tiles import normal_loss, view_of
+from lampblack_research.training.normalisation import recompute_statistics
+from lampblack_research.training.tile_batches import normal_loss, view_of
 from lampblack_research.training.train import TrainingOptions, train
 
 
@@ -90,10 +94,10 @@ def test_tiles_mirror_the_normals_with_the_drawing(data: Path) -> None:
         assert np.corrcoef(columns, truth[0][inside])[0, 1] > 0.3
 
 
-def test_whole_figures_mirror_every_map_with_the_drawing(data: Path) -> None:
-    figure = figure_of(one_triple(data), np.random.default_rng(0), [96])
+def test_whole_characters_mirror_every_map_with_the_drawing(data: Path) -> None:
+    character = place_on_canvas(one_triple(data), np.random.default_rng(0), [96])
     for seed in range(6):
-        fine, coarse, truth, auxiliary = sample(figure, np.random.default_rng(seed))
+        fine, coarse, truth, auxiliary = input_and_truth(character, np.random.default_rng(seed))
         inside = fine[1] > 0
         assert np.allclose(np.linalg.norm(truth, axis=0)[inside], 1, atol=0.02)
         cells = inside.reshape(24, 4, 24, 4).mean((1, 3)) > 0.9
@@ -121,9 +125,9 @@ def test_angles_are_angles() -> None:
 
 def test_canvases_of_every_side_take_turns_and_large_ones_make_smaller_batches(data: Path) -> None:
     seen = {}
-    with FigureCourse(data, (64, 384), seed=0, capacity=8) as course:
+    with CharacterBatches(data, (64, 384), seed=0, capacity=8) as batches:
         for _ in range(40):
-            fine = course._batch(9).fine
+            fine = batches._batch(9).fine
             seen[fine.shape[2] * fine.shape[3]] = len(fine)
     areas = sorted(seen)
     assert areas[-1] > 20 * areas[0]
@@ -134,11 +138,11 @@ def test_canvases_of_every_side_take_turns_and_large_ones_make_smaller_batches(d
 def test_the_loader_of_a_killed_run_ends(data: Path) -> None:
     program = (
         "import sys, time; from pathlib import Path\n"
-        "from lampblack_research.training.figures import FigureCourse\n"
+        "from lampblack_research.training.character_batches import CharacterBatches\n"
         "if __name__ == '__main__':\n"
-        "    with FigureCourse(Path(sys.argv[1]), (64,), 0, 4) as course:\n"
-        "        course._batch(1)\n"
-        "        print(course._stream._loader.pid, flush=True)\n"
+        "    with CharacterBatches(Path(sys.argv[1]), (64,), 0, 4) as batches:\n"
+        "        batches._batch(1)\n"
+        "        print(batches._stream._loader.pid, flush=True)\n"
         "        time.sleep(60)\n"
     )
     with subprocess.Popen(
@@ -188,14 +192,14 @@ def test_a_run_from_nothing_begins_on_small_canvases(
     clock = SimpleNamespace(process_time=lambda: next(seconds), monotonic=time.monotonic)
     monkeypatch.setattr("lampblack_research.training.train.time", clock)
     widest: list[int] = []
-    batch_of = FigureCourse._batch
+    batch_of = CharacterBatches._batch
 
-    def seen(course: FigureCourse, size: int) -> Batch:
-        batch = batch_of(course, size)
+    def seen(batches: CharacterBatches, size: int) -> Batch:
+        batch = batch_of(batches, size)
         widest.append(max(batch.fine.shape[2:]))
         return batch
 
-    monkeypatch.setattr(FigureCourse, "_batch", seen)
+    monkeypatch.setattr(CharacterBatches, "_batch", seen)
     monkeypatch.setattr("lampblack_research.training.train.STATISTICS_ROUNDS", 0)
     monkeypatch.setattr("lampblack_research.training.train.EXAMPLES", 1)
     options = TrainingOptions(minutes=0.1, batch=1, sides=(160,), first_side=64, capacity=2)
@@ -207,7 +211,7 @@ def test_a_run_from_nothing_begins_on_small_canvases(
     assert kept.training is not None
     assert kept.training["canvas_sides"] == [[64], [160]]
     widest.clear()
-    train(data, tmp_path / "later", card, options, begin_with=[begun])
+    train(data, tmp_path / "later", card, options, init_from=[begun])
     assert min(widest) >= 160
 
 
@@ -230,12 +234,12 @@ def test_the_course_of_a_run_can_be_looked_at(
             assert curve.size == SIZE
             assert examples.height > 3 * 64
     lines = (run / "log.jsonl").read_text().splitlines()
-    told = [json.loads(line) for line in lines]
-    assert [row["step"] for row in told] == [2, 4]
-    assert 0 < told[0]["seconds"] < told[1]["seconds"]
+    logged = [json.loads(line) for line in lines]
+    assert [row["step"] for row in logged] == [2, 4]
+    assert 0 < logged[0]["seconds"] < logged[1]["seconds"]
 
 
-def test_training_begins_with_the_mean_of_given_weights(data: Path, tmp_path: Path) -> None:
+def test_a_run_starts_from_the_mean_of_given_weights(data: Path, tmp_path: Path) -> None:
     torch.manual_seed(5)
     card = NetworkCard("figure-net", (64, 96))
     networks = [build_network("figure-net") for _ in range(3)]
@@ -261,7 +265,7 @@ def test_statistics_are_those_of_the_weights_themselves() -> None:
     network = torch.nn.Sequential(torch.nn.Conv2d(1, 2, 1), torch.nn.BatchNorm2d(2)).eval()
     shown = [torch.randn(4, 1, 8, 8) * 3 + 1 for _ in range(10)]
     batches = iter(shown)
-    retake_statistics(network, lambda: network(next(batches)), 10)
+    recompute_statistics(network, lambda: network(next(batches)), 10)
     assert not network.training
     kept = network[1].state_dict()
     with torch.no_grad():
@@ -282,7 +286,7 @@ def test_networks_of_tiles_share_the_trainer(data: Path, tmp_path: Path, archite
     assert kept.architecture == architecture
 
 
-def test_data_and_runs_that_cannot_be_used_are_told(data: Path, tmp_path: Path) -> None:
+def test_unusable_data_and_run_folders_are_errors(data: Path, tmp_path: Path) -> None:
     with pytest.raises(LampblackError, match="dataset build"):
         train(tmp_path / "nowhere", tmp_path / "run", NetworkCard(), TrainingOptions())
     (tmp_path / "file").write_text("")
@@ -291,39 +295,6 @@ def test_data_and_runs_that_cannot_be_used_are_told(data: Path, tmp_path: Path) 
     (tmp_path / "run" / "checkpoint.safetensors").write_bytes(b"junk")
     with pytest.raises(LampblackError, match="damaged"):
         train(data, tmp_path / "run", NetworkCard(), TrainingOptions())
-
-
-def test_weights_round_trip_and_foreign_files_are_refused(tmp_path: Path) -> None:
-    path = tmp_path / "net.safetensors"
-    card = NetworkCard(measured={"val": 23.0})
-    network = build_network(card.architecture)
-    save_network(path, network, card)
-    again, read = load_network(path)
-    assert read == card
-    for old, new in zip(network.parameters(), again.parameters(), strict=True):
-        assert torch.allclose(old, new, atol=1e-3)
-
-    good = path.read_bytes()
-    for broken in (b"", b"junk", good[: len(good) // 2]):
-        path.write_bytes(broken)
-        with pytest.raises(LampblackError):
-            load_network(path)
-    path.write_bytes(good)
-    text = json.loads(path.with_suffix(".json").read_text())
-    for change in ({"architecture": "../../etc"}, {"figure_px": [1, 10**9]}):
-        path.with_suffix(".json").write_text(json.dumps(text | change))
-        with pytest.raises(LampblackError):
-            load_network(path)
-    path.with_suffix(".json").unlink()
-    with pytest.raises(LampblackError):
-        load_network(path)
-
-
-def test_shipped_weights_are_small_and_described() -> None:
-    network, card = load_network()
-    assert shipped_weights().stat().st_size < 20_000_000
-    assert card.measured is not None
-    assert all(torch.isfinite(p).all() for p in network.parameters())
 
 
 def test_loss_is_one_minus_cosine_for_unit_normals() -> None:

@@ -1,5 +1,5 @@
-"""How the networks of ``lampblack`` came to be: data sets, training and evaluation.
+"""How the networks of ``lampblack`` are made: data sets, training and evaluation.
 
-Whoever lights drawings needs none of it, and nothing in ``lampblack`` imports it; it adds the
-commands ``dataset build``, ``train``, ``evaluate`` and ``flicker``.
+Lighting drawings does not need it, and nothing in ``lampblack`` imports it. It adds the commands
+``dataset build``, ``train``, ``evaluate`` and ``flicker``.
 """

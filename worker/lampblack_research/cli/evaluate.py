@@ -6,9 +6,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import msgspec
-import numpy as np
 import typer
-from numpy.typing import NDArray
 from PIL import Image
 from rich.console import Console
 from rich.table import Table
@@ -18,7 +16,6 @@ from lampblack.cli.console import progress_bar
 from lampblack.errors import LampblackError
 from lampblack.normals.predict_tiles import PAPER_GRIDS
 
-from ..evaluation.drawings import TestDrawing
 from ..evaluation.evaluate import PEERS, Method, network_method
 from ..evaluation.evaluate import evaluate as measure
 from ..evaluation.sheet import ComparisonSheet
@@ -73,10 +70,6 @@ def evaluate(
     """
     chosen = dict(_method(named) for named in methods.split(","))
     comparison = ComparisonSheet()
-
-    def keep(drawing: TestDrawing, normals: dict[str, NDArray[np.float32]]) -> None:
-        comparison.add(drawing, normals)
-
     with progress_bar() as bar:
         task = bar.add_task("Evaluating", total=100)
         table = measure(
@@ -84,10 +77,10 @@ def evaluate(
             None if split == "all" else split,
             chosen,
             views=views,
-            figure_px=resolution,
+            character_px=resolution,
             lines=lines,
             progress=lambda share: bar.update(task, completed=int(100 * share)),
-            shown=keep if sheet else None,
+            on_drawing=comparison.add if sheet else None,
         )
     if sheet:
         with atomic_file(sheet) as file:

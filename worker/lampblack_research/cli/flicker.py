@@ -92,7 +92,7 @@ def _animation(inputs: list[str]) -> Rows:
 
 
 def _drawn(inputs: list[str]) -> Iterator[RegistrationThumbnail]:
-    """Each drawing where it begins to be shown."""
+    """Each drawing once, in the order of the frames."""
     shot = resolve_shot(RenderSettings(inputs=tuple(inputs), output=""))
     shown = [list(frames) for _, frames in groupby(shot.frames, lambda frame: frame.drawing)]
     with Pipeline(surface_cache()) as pipeline:
@@ -103,7 +103,7 @@ def _drawn(inputs: list[str]) -> Iterator[RegistrationThumbnail]:
 def _in_context(
     drawn: Iterator[RegistrationThumbnail],
 ) -> Iterator[tuple[RegistrationThumbnail, Neighbours]]:
-    """Each with what precedes and follows it."""
+    """Each drawing with its neighbours."""
     before: tuple[RegistrationThumbnail, ...] = ()
     ahead = list(islice(drawn, REACH + 1))
     while ahead:
@@ -114,7 +114,7 @@ def _in_context(
 
 
 def _turntables(folder: Path, split: str | None, count: int) -> Rows:
-    """Means over the models."""
+    """Measures of the chosen models' turntables, averaged."""
     found = find_models(folder, split)
     chosen = np.unique(np.linspace(0, len(found) - 1, min(count, len(found))).round().astype(int))
     predictor = NormalPredictor()

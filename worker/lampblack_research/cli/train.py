@@ -73,7 +73,7 @@ def train(
             "a small one takes less time.",
         ),
     ] = TrainingOptions.first_side,
-    begin_with: Annotated[
+    init_from: Annotated[
         list[Path] | None,
         typer.Option(
             "--from",
@@ -103,8 +103,8 @@ def train(
         task = bar.add_task("Training", total=round(60 * minutes))
 
         def report(progress: Progress) -> None:
-            told = f"step {progress.step}, {progress.angle:.1f} degrees"
-            bar.update(task, completed=round(progress.seconds), description=told)
+            text = f"step {progress.step}, {progress.angle:.1f} degrees"
+            bar.update(task, completed=round(progress.seconds), description=text)
 
-        weights = run_training(data, output, CARDS[network], options, report, begin_with or ())
+        weights = run_training(data, output, CARDS[network], options, report, init_from or ())
     say(f"Weights and card: {weights}")

@@ -1,1 +1,1 @@
-"""From meshes to drawings with exact truth."""
+"""Makes line drawings with exact normals, depth and occlusions from meshes."""

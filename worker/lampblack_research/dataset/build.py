@@ -1,4 +1,4 @@
-"""Build a data set: every model from many sides, drawn by several hands, with exact truth."""
+"""Build a data set: every model from many sides, in several line styles, with exact truth."""
 
 from __future__ import annotations
 
@@ -22,29 +22,36 @@ from . import creatures
 from .deform import deformed
 from .freestyle import Stroke, draw_freestyle
 from .gbuffer import GBuffer, Placed, place, trace_placed
-from .linework import Hand, draw_lines
+from .linework import LineStyle, draw_lines
 from .models import find_models, load_model
 from .smooth import smoothed
 from .triple import Triple
 from .viewpoints import PAPER_VIEWPOINTS, viewpoint
 
 LARGE_SOURCE = 60
-"""A source of more models repeats itself: each of its models is seen from fewer sides."""
+"""The models of a larger source are alike, so each of them is drawn from fewer sides."""
 
 OCCLUSION_STEP = 0.012
-"""Depth jump that occludes, as a share of the figure."""
+"""Depth jump that counts as an occlusion, as a share of the character's size."""
 
 CHUNK = 64
-"""Views built together at most: those that Freestyle draws share one start of Blender."""
+"""Largest number of views built together. One Blender process draws their Freestyle lines."""
 _LEAST_SHARE = 0.02
 
 
 @dataclass(frozen=True)
 class DatasetOptions:
-    """``views`` a model, figures of about ``resolution`` squared pixels, ``hands`` drawings a
-    view; half of the views show the model with other proportions if ``deform``; a share
-    ``freestyle`` of the views has one drawing by Blender's Freestyle; ``creatures`` figures
-    are made up, each seen once."""
+    """What to build.
+
+    Attributes:
+        views: number of views of each model.
+        resolution: the box of a character has about the area of a square of this side, pixels.
+        hands: number of drawings of each view, each in its own line style.
+        deform: half of the views show the model with other proportions.
+        freestyle: share of the views that have one drawing by Blender's Freestyle.
+        creatures: number of random characters, each with one view.
+        workers: number of processes; it does not change the data set.
+    """
 
     views: int = PAPER_VIEWPOINTS
     resolution: int = 512
@@ -57,8 +64,8 @@ class DatasetOptions:
 
 
 def entries(paths: list[Path], views: int) -> Generator[tuple[Path, int], None, None]:
-    """(model, view) in the order they are built: the first view of every model, then the
-    second, so that an unfinished data set is a balanced one."""
+    """(model, view) in the order of building: the first view of every model, then the second,
+    so that an unfinished data set is balanced."""
     sizes = Counter(path.parent.name for path in paths)
     for index in range(views):
         for path in paths:
@@ -67,7 +74,7 @@ def entries(paths: list[Path], views: int) -> Generator[tuple[Path, int], None, 
 
 
 def entry_path(output: Path, model: Path, index: int) -> Path:
-    """Where the ``index``-th view of ``model`` is kept."""
+    """The file of the ``index``-th view of ``model``."""
     return output / model.parent.name / f"{model.stem}.{index:02d}.npz"
 
 
@@ -78,10 +85,10 @@ def build_dataset(
     options: DatasetOptions,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> int:
-    """Write the entries that are not there yet; returns how many there are.
+    """Write the entries that are missing; return how many there are in all.
 
-    The same models, options and seed give the same data set, whatever the number of workers
-    and however often the work is interrupted. A view that shows nothing is left out.
+    The same models, options and seed give the same data set, with any number of workers and after
+    any interruption. A view that shows nothing is left out.
 
     Raises:
         LampblackError: no models. OutputError: ``output`` cannot be written.
@@ -110,18 +117,18 @@ _Task = tuple[Path, int]
 def _built(
     tasks: list[_Task], output: Path, options: DatasetOptions
 ) -> Generator[tuple[int, int], None, None]:
-    """Build by the chunk; yields of each how many entries were tried and how many it gave."""
+    """Build in chunks; yield for each how many entries were tried and how many were made."""
     size = max(1, min(CHUNK, len(tasks) // options.workers))
     chunks = [tasks[start : start + size] for start in range(0, len(tasks), size)]
     build = partial(_build, output=output, options=options)
     if options.workers == 1:
         yield from zip(map(len, chunks), map(build, chunks), strict=True)
         return
-    with multiprocessing.get_context("spawn").Pool(options.workers, _stand_back) as pool:
+    with multiprocessing.get_context("spawn").Pool(options.workers, _run_in_background) as pool:
         yield from zip(map(len, chunks), pool.imap(build, chunks), strict=True)
 
 
-def _stand_back() -> None:
+def _run_in_background() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(5)
 
@@ -159,7 +166,7 @@ class _Drawn:
 
 
 def _draw(path: Path, index: int, options: DatasetOptions) -> _Drawn | None:
-    """A view and its drawings but for Freestyle's; None if there is nothing to see."""
+    """A view and its drawings, without Freestyle's; None if there is nothing to see."""
     name = f"{path.parent.name}/{path.stem}"
     rng = np.random.default_rng([options.seed, crc32(name.encode()), index])
     side = index
@@ -177,7 +184,8 @@ def _draw(path: Path, index: int, options: DatasetOptions) -> _Drawn | None:
     if view.mask.sum() < _LEAST_SHARE * options.resolution**2:
         return None
     lines = [
-        draw_lines(view, Hand.random(rng, options.resolution), rng) for _ in range(options.hands)
+        draw_lines(view, LineStyle.random(rng, options.resolution), rng)
+        for _ in range(options.hands)
     ]
     styled = rng.random() < options.freestyle
     stroke = (placed, Stroke.random(rng, options.resolution)) if styled else None

@@ -1,4 +1,4 @@
-"""What a data set holds and how it came to be, for people."""
+"""The data set card: what a data set holds and how it was made."""
 
 from __future__ import annotations
 

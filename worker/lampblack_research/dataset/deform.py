@@ -1,4 +1,4 @@
-"""One model, many bodies: a smooth change of proportions, with exact normals."""
+"""Smooth random changes of a model's proportions, with exact normals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Drawings by Blender's Freestyle, the paper's renderer, made in a process of its own."""
+"""Line drawings by Blender's Freestyle, the paper's renderer, made in a child process."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class Stroke:
     seed: int = 0
 
     @staticmethod
-    def random(rng: np.random.Generator, figure_px: int) -> Stroke:
-        """One of many, for a figure of this size: thin pens to brushes."""
+    def random(rng: np.random.Generator, character_px: int) -> Stroke:
+        """A random stroke for a character of this size: thin pens to brushes."""
         return Stroke(
-            width=float(np.exp(rng.uniform(np.log(0.0025), np.log(0.014)))) * figure_px,
+            width=float(np.exp(rng.uniform(np.log(0.0025), np.log(0.014)))) * character_px,
             taper=bool(rng.random() < 0.7),
             wobble=float(rng.choice([0.0, 0.0, rng.uniform(0.5, 2.0)])),
             crease=float(rng.choice([0.0, rng.uniform(60, 110)])),
@@ -44,8 +44,8 @@ class Stroke:
 
 
 def draw_freestyle(jobs: list[tuple[Placed, Stroke]]) -> list[NDArray[np.float32] | None]:
-    """Ink every figure: (H, W) float32 in 0..1, lines lie astride the silhouette; None where
-    Freestyle failed.
+    """Draw the lines of every character: (H, W) float32 in 0..1, centred on the silhouette; None
+    where Freestyle failed.
 
     Raises:
         RenderError: Blender cannot be run.

@@ -54,12 +54,12 @@ class Placed:
 
 
 def place(
-    model: Model, rotation: NDArray[np.float32], figure_px: int, *, equal_area: bool = False
+    model: Model, rotation: NDArray[np.float32], character_px: int, *, equal_area: bool = False
 ) -> Placed:
-    """Turn ``model`` by ``rotation``, its long side ``figure_px`` pixels, with a margin.
+    """Turn ``model`` by ``rotation``, scale its long side to ``character_px`` pixels, add a margin.
 
-    With ``equal_area`` the box of a long figure grows to the area of a square of ``figure_px``
-    (at most to half as long again), so that a standing figure is seen as large as a round one.
+    With ``equal_area`` the box of a long character grows to the area of a square of that side, by
+    half at most, so that a standing character is seen as large as a round one.
     """
     vertices = model.vertices @ rotation.T
     faces, corner_normals = model.faces, model.corner_normals
@@ -71,7 +71,7 @@ def place(
     used = vertices[faces.reshape(-1)]
     low, high = used.min(axis=0), used.max(axis=0)
     sides = np.maximum((high - low)[:2], 1e-6)
-    scale = figure_px / float(sides.max())
+    scale = character_px / float(sides.max())
     if equal_area:
         scale *= min(1.5, float(np.sqrt(sides.max() / sides.min())))
     width, height = (int(n) + 2 * MARGIN for n in np.ceil(sides * scale))
@@ -80,10 +80,10 @@ def place(
 
 
 def trace(
-    model: Model, rotation: NDArray[np.float32], figure_px: int, *, equal_area: bool = False
+    model: Model, rotation: NDArray[np.float32], character_px: int, *, equal_area: bool = False
 ) -> GBuffer:
     """See ``model`` placed as ``place`` does."""
-    return trace_placed(place(model, rotation, figure_px, equal_area=equal_area))
+    return trace_placed(place(model, rotation, character_px, equal_area=equal_area))
 
 
 def trace_placed(placed: Placed) -> GBuffer:

@@ -1,4 +1,4 @@
-"""Meshes of characters, made ready to be traced as smooth figures."""
+"""Reads meshes of characters, and prepares them to be traced as smooth shapes."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ class Model:
         vertices: (V, 3) float32.
         faces: (F, 3) int32.
         corner_normals: (F, 3, 3) float32 unit, smooth but split at creases, so that a
-            low-poly model is drawn and shaded as the round thing it stands for.
-        double_sided: cloth modelled as two coincident sheets; its back faces must be culled.
+            low-poly model is drawn and shaded as the round shape that it represents.
+        double_sided: it has cloth of two coincident sheets; back faces must be culled.
     """
 
     name: str
@@ -73,7 +73,7 @@ def load_model(path: Path) -> Model:
         else:
             mesh = trimesh.load_mesh(path, process=False)
             vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    except Exception as error:  # what a broken mesh makes the readers raise has no end
+    except Exception as error:  # readers of broken meshes raise all kinds of errors
         raise LampblackError(f"{path} cannot be read as a mesh.", details=str(error)) from error
     if not 0 < len(faces) <= MAX_FACES or not np.isfinite(vertices).all():
         raise LampblackError(f"{path} has {len(faces)} faces; 1 to {MAX_FACES} can be used.")

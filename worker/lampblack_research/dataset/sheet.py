@@ -1,4 +1,4 @@
-"""A contact sheet of a data set: drawings, normals, depth and occlusions of some entries."""
+"""A contact sheet of a data set: drawings, depth, occlusions and normals of some entries."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def dataset_sheet(folder: Path) -> Image.Image:
     """``ROWS`` entries spread over the data set in ``folder``, one a row.
 
     Raises:
-        LampblackError: there is none.
+        LampblackError: the data set is empty.
     """
     paths = sorted(folder.rglob("[!.]*.npz"))
     if not paths:

@@ -1,4 +1,4 @@
-"""Low-poly models rounded to what they stand for (Phong tessellation, Boubekeur and Alexa 2008)."""
+"""Rounds low-poly models by Phong tessellation (Boubekeur and Alexa 2008)."""
 
 from __future__ import annotations
 

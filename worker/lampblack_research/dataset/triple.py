@@ -26,12 +26,12 @@ class Triple:
     """Drawings and truth, 8 or 16 bits a value.
 
     Attributes:
-        drawings: (K, H, W) uint8, 255 is full ink; each by another hand.
+        drawings: (K, H, W) uint8, 255 is full ink; each in another line style.
         mask: (H, W) bool.
         normals: (H, W, 3) int8, 127 is 1; x right, y up, z to the viewer; 0 outside.
         depth: (H, W) uint16, towards the viewer, 1/16 pixel a level; 0 outside.
         occlusion: (H, W) uint8: ``IN_FRONT`` on the nearer side of every depth jump and along
-            the silhouette, ``BEHIND`` on the farther side within the figure, else 0.
+            the silhouette, ``BEHIND`` on the farther side within the character, else 0.
     """
 
     drawings: NDArray[np.uint8]

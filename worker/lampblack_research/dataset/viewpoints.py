@@ -1,4 +1,4 @@
-"""The sides from which artists draw characters: all around, mostly the front, few from below."""
+"""Viewpoints as artists choose them: all around, mostly the front, few from below."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ _GOLDEN = 0.6180339887498949
 
 
 def viewpoint(index: int, rng: np.random.Generator) -> NDArray[np.float32]:
-    """(3, 3) rotation of the ``index``-th viewpoint, shaken a little by ``rng``.
+    """(3, 3) rotation of the ``index``-th viewpoint, varied a little by ``rng``.
 
-    Any first few are spread evenly, so that an unfinished data set is a balanced one.
+    The first few are spread evenly, however many, so that an unfinished data set is balanced.
     """
     around = 2 * ((index * _GOLDEN) % 1) - 1
     azimuth = 180 * np.sign(around) * abs(around) ** 1.3 + rng.normal(0, 5)

@@ -1,1 +1,1 @@
-"""Networks and their peers, measured against exact truth."""
+"""Measures networks and other methods against exact normals, and flicker over time."""

@@ -1,4 +1,4 @@
-"""Drawings to be measured on: every model from evenly spread sides, the same every time."""
+"""Test drawings: every model from evenly spread sides, the same at every run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lampblack.errors import LampblackError
 
 from ..dataset.freestyle import Stroke, draw_freestyle
 from ..dataset.gbuffer import place, trace_placed, view_rotation
-from ..dataset.linework import Hand, draw_lines
+from ..dataset.linework import LineStyle, draw_lines
 from ..dataset.models import load_model
 from ..dataset.smooth import smoothed
 
@@ -35,31 +35,32 @@ class TestDrawing:
 
 
 def drawings(
-    paths: list[Path], views: int, figure_px: int, lines: Lines, seed: int = 0
+    paths: list[Path], views: int, character_px: int, lines: Lines, seed: int = 0
 ) -> Iterator[TestDrawing]:
-    """``views`` drawings of each model; models that cannot be read are passed over."""
+    """``views`` drawings of each model; models that cannot be read are left out."""
     for path in paths:
         try:
             model = smoothed(load_model(path))
         except LampblackError:
             continue
-        placed, hands = [], []
+        placed, randoms = [], []
         for side in range(views):
             rng = np.random.default_rng([seed, side])
             azimuth, elevation = 360.0 * side / views, float(rng.uniform(-5, 30))
-            placed.append(place(model, view_rotation(azimuth, elevation), figure_px))
-            hands.append(rng)
+            placed.append(place(model, view_rotation(azimuth, elevation), character_px))
+            randoms.append(rng)
         inked: list[NDArray[np.float32] | None] = [None] * views
         if lines == "freestyle":
             strokes = [
-                replace(Stroke.random(rng, figure_px), seed=side) for side, rng in enumerate(hands)
+                replace(Stroke.random(rng, character_px), seed=side)
+                for side, rng in enumerate(randoms)
             ]
             inked = draw_freestyle(list(zip(placed, strokes, strict=True)))
-        for figure, rng, ink in zip(placed, hands, inked, strict=True):
-            view = trace_placed(figure)
+        for character, rng, ink in zip(placed, randoms, inked, strict=True):
+            view = trace_placed(character)
             if not view.mask.any():
                 continue
             if lines == "gbuffer":
-                ink = draw_lines(view, Hand.random(rng, figure_px), rng)
+                ink = draw_lines(view, LineStyle.random(rng, character_px), rng)
             if ink is not None:
                 yield TestDrawing(model.name, ink * view.mask, view.mask, view.normals)

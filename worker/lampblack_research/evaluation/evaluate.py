@@ -1,4 +1,4 @@
-"""Networks and peers on the same drawings, with exact truth."""
+"""Measures networks and other methods on the same drawings, with exact truth."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ PEERS: dict[str, Method] = {
     "lumo": lambda lines, mask: lumo_normals(mask),
     "lumo-mixed": lumo_mixed_normals,
 }
-"""Each maps (lines (H, W), mask (H, W)) to normals (H, W, 3), and learns nothing."""
+"""Methods that learn nothing: each maps lines (H, W) and mask (H, W) to normals (H, W, 3)."""
 
 
 def network_method(weights: Path | None, grids: int = DEFAULT_GRIDS) -> Method:
@@ -43,7 +43,7 @@ def network_method(weights: Path | None, grids: int = DEFAULT_GRIDS) -> Method:
 
 @dataclass
 class Contender:
-    """A method and what came of it, one row a drawing."""
+    """A method and its results, one for each drawing."""
 
     method: Method
     errors: list[Errors] = field(default_factory=list)
@@ -56,17 +56,17 @@ def evaluate(
     methods: dict[str, Method],
     *,
     views: int = 8,
-    figure_px: int = 768,
+    character_px: int = 768,
     lines: Lines = "gbuffer",
     progress: Callable[[float], None] = lambda share: None,
-    shown: Callable[[TestDrawing, dict[str, NDArray[np.float32]]], None] | None = None,
+    on_drawing: Callable[[TestDrawing, dict[str, NDArray[np.float32]]], None] | None = None,
 ) -> dict[str, dict[str, float]]:
-    """For every method the means over drawings of ``metrics.Errors``, seconds a picture, and
-    for all but the first, of how many percent the first one's angle is lower, with its 95 %
+    """For every method: means over drawings of ``metrics.Errors``, and seconds for a picture. For
+    all but the first: by how many percent the first method's angle is lower, with its 95 %
     interval over models.
 
     Args:
-        shown: is given each drawing and the normals of every method, say for a contact sheet.
+        on_drawing: called with each drawing and the normals of every method.
 
     Raises:
         LampblackError: no models are found, or none can be drawn.
@@ -74,7 +74,7 @@ def evaluate(
     paths = find_models(models, split)
     contenders = {name: Contender(method) for name, method in methods.items()}
     seen: list[str] = []
-    for drawing in drawings(paths, views, figure_px, lines):
+    for drawing in drawings(paths, views, character_px, lines):
         normals = {}
         for name, contender in contenders.items():
             began = time.perf_counter()
@@ -82,8 +82,8 @@ def evaluate(
             contender.seconds.append(time.perf_counter() - began)
             contender.errors.append(measure(normals[name], drawing.truth, drawing.mask))
         seen.append(drawing.model)
-        if shown is not None:
-            shown(drawing, normals)
+        if on_drawing is not None:
+            on_drawing(drawing, normals)
         progress(min(1.0, len(seen) / (len(paths) * views)))
     if not seen:
         raise LampblackError(f"Nothing could be drawn from the models in {models}.")

@@ -1,9 +1,9 @@
-"""Flicker, measured: by how much normals change from drawing to drawing.
+"""Measures flicker: how much normals change from drawing to drawing.
 
-Not all change is flicker: a figure moves. So the change is told after the figure's rigid motion
-is removed; after each place's own motion is removed, where the drawings can be laid onto each
-other; and as the departure from the mean of the drawings before and after, which is nothing for
-whatever changes evenly.
+Not all change is flicker, because characters move. So the change is measured after the rigid
+motion of the character is removed; after the motion of each place is removed, where two drawings
+can be registered; and as the departure from the mean of the drawings before and after, which is 0
+for an even change.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ class Flicker:
     """Means over pairs, or triples, of consecutive drawings, in degrees; nan where there are none.
 
     Attributes:
-        rigid: change that is left after the motion of the whole figure.
-        motion: what of that the motion of its parts makes: the same, had every place kept its
-            normal as it moved. No steadiness comes below it.
-        local: change that is left after each place's own motion.
-        jitter: departure from the mean of the neighbours, likewise.
+        rigid: change after the rigid motion of the character is removed.
+        motion: the part of ``rigid`` that moving parts make: the change if every place kept its
+            normal as it moved. No filter can come below it.
+        local: change after the motion of each place is removed.
+        jitter: departure from the mean of the drawings before and after, place by place.
     """
 
     rigid: float
@@ -40,10 +40,10 @@ class Flicker:
 
 
 class FlickerMeter:
-    """Takes distinct drawings in order, and holds the last two.
+    """Measures distinct drawings in order; keeps the last two.
 
     Args:
-        temporal_filter: asked for registrations only; meters may share one.
+        temporal_filter: used for its registrations only; meters may share one.
     """
 
     def __init__(self, temporal_filter: TemporalFilter) -> None:
@@ -55,7 +55,7 @@ class FlickerMeter:
         self._jitter: list[float] = []
 
     def add(self, later: RegistrationThumbnail) -> None:
-        """The next drawing, with its normals."""
+        """Add the next drawing, with its normals."""
         if self._last:
             here = self._last[-1]
             ahead = self._temporal_filter.registration(here, later)
@@ -75,13 +75,13 @@ class FlickerMeter:
 
     @property
     def flicker(self) -> Flicker:
-        """Of what was added so far."""
+        """The means over all drawings so far."""
         found = self._rigid, self._motion, self._local, self._jitter
         return Flicker(*(float(np.mean(values)) if values else nan for values in found))
 
 
 def rigid_change(here: RegistrationThumbnail, later: RegistrationThumbnail) -> float:
-    """Degrees of change that are left after the motion of the whole figure."""
+    """Change in degrees after the rigid motion of the character is removed."""
     return _change(here, later, rigid_registration(here, later))
 
 
@@ -90,7 +90,7 @@ def _change(here: RegistrationThumbnail, other: RegistrationThumbnail, seen: Reg
 
 
 def _mean_angle(here: RegistrationThumbnail, vectors: Planes, weight: NDArray[np.float32]) -> float:
-    """Degrees between the drawing's normals and ``vectors``, over the figure."""
+    """Degrees between the drawing's normals and ``vectors``, over the character."""
     length = np.linalg.norm(here.vectors, axis=0) * np.linalg.norm(vectors, axis=0)
     cosine = (here.vectors * vectors).sum(axis=0) / np.maximum(length, 1e-6)
     within = weight * (here.inside > 0.5)

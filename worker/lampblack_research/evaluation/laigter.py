@@ -1,7 +1,7 @@
 """Laigter's bevel: the free tool that game artists use for normal maps of sprites.
 
-Re-implemented from its description, not from its source: the figure's distance transform,
-clipped at the bevel's width and rounded off, is a height map whose gradient gives the normals.
+Re-implemented from its description, not from its source: the distance transform of the
+mask, clipped at the bevel's width and rounded, is a height map whose gradient gives the normals.
 """
 
 from __future__ import annotations

@@ -11,21 +11,21 @@ from lampblack.normals.silhouette import lumo_normals
 INK = 0.3
 SMALLEST_SHARE = 0.004
 WEIGHT = 0.35
-"""Of the regions; Johnston leaves it to the artist, this is what serves our validation best."""
+"""Weight of the regions. Johnston leaves it to the artist; this is the best on validation."""
 
 
 def lumo_mixed_normals(
     lines: NDArray[np.float32], mask: NDArray[np.bool_], weight: float = WEIGHT
 ) -> NDArray[np.float32]:
-    """(H, W, 3) float32 normals of the (H, W) drawing; every region that the ink closes off is
-    puffed up by itself, and mixed with the figure as a whole (Johnston 2002, sections 3 and 4).
+    """(H, W, 3) float32 normals of the (H, W) drawing; every region that ink encloses is
+    inflated alone, and mixed with the whole character (Johnston 2002, sections 3 and 4).
     """
     whole = lumo_normals(mask)
     regions, count = ndimage.label(mask & (lines < INK))
     if count < 2:
         return whole
     sizes = np.bincount(regions.reshape(-1), minlength=count + 1)
-    puffed = whole.copy()
+    inflated = whole.copy()
     # Ink belongs to the region that is nearest.
     nearest = ndimage.distance_transform_edt(
         regions == 0, return_distances=False, return_indices=True
@@ -35,8 +35,8 @@ def lumo_mixed_normals(
         if box is None or sizes[index] < SMALLEST_SHARE * mask.sum():
             continue
         region = owner[box] == index
-        puffed[box][region] = lumo_normals(region)[region]
-    mixed = (1 - weight) * whole + weight * puffed
+        inflated[box][region] = lumo_normals(region)[region]
+    mixed = (1 - weight) * whole + weight * inflated
     mixed /= np.maximum(np.linalg.norm(mixed, axis=2, keepdims=True), 1e-6)
     result: NDArray[np.float32] = (mixed * mask[..., None]).astype(np.float32)
     return result

@@ -1,4 +1,4 @@
-"""How far normals are from the truth, and how round they are."""
+"""Errors of normals against the truth, and measures of roundness."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 RIM_SHARE = 0.006
-"""Width of the rim in figure sizes: 3 pixels of 512."""
+"""Width of the rim as a share of the character's size: 3 pixels of 512."""
 
 _CURVED = 1.0
-"""Least divergence of the normals that counts as curved; of a ball as large as the figure it
-is 4."""
+"""Smallest divergence of the normals that counts as curved. A ball as large as the character
+has 4."""
 
 
 @dataclass(frozen=True)
 class Errors:
-    """Of one drawing, over the pixels of the figure.
+    """Errors of one drawing, over the pixels of the character.
 
     Attributes:
         mean, median: angle, degrees.
@@ -73,7 +73,7 @@ def measure(
 
 
 def means(rows: list[Errors]) -> dict[str, float]:
-    """Mean over drawings of every figure, those left out that have none."""
+    """Mean of every measure over the drawings that have it."""
     columns = {f.name: np.array([getattr(row, f.name) for row in rows]) for f in fields(Errors)}
     known = {name: values[np.isfinite(values)] for name, values in columns.items()}
     return {
@@ -86,7 +86,7 @@ def bootstrap(
     ours: list[float], theirs: list[float], models: list[str], rounds: int = 2000
 ) -> tuple[float, float]:
     """95 % interval of the relative gain ``1 - ours / theirs`` of mean angles; whole models are
-    drawn anew, for drawings of one model are alike."""
+    resampled, because drawings of one model are alike."""
     rng = np.random.default_rng(0)
     names = sorted(set(models))
     by_model = np.array(

@@ -1,4 +1,4 @@
-"""A contact sheet of drawings, the truth, and what every method makes of them."""
+"""A contact sheet of drawings, their true normals, and those of every method."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class ComparisonSheet:
         self._models: set[str] = set()
 
     def add(self, drawing: TestDrawing, normals: dict[str, NDArray[np.float32]]) -> None:
-        """Take in a drawing, unless its model is there already or the sheet is full."""
+        """Add a drawing, unless its model has one already or the sheet is full."""
         if drawing.model in self._models or len(self._rows) == MOST_ROWS:
             return
         self._models.add(drawing.model)

@@ -1,4 +1,4 @@
-"""Flicker with known truth: models turned step by step, drawn, predicted and steadied."""
+"""Measures flicker with known truth, on turntables of models."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from lampblack.normals.temporal.temporal_filter import Neighbours, TemporalFilte
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 
 from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation
-from ..dataset.linework import Hand, draw_lines
+from ..dataset.linework import LineStyle, draw_lines
 from ..dataset.models import Model, load_model
 from .flicker import rigid_change
 
@@ -28,16 +28,16 @@ Normals = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
-class Wobble:
+class TurntableErrors:
     """Means over a turntable, in degrees.
 
     Attributes:
         error: between the normals and the truth.
-        change: along the points of the model, from view to view, after the model's own turn is
-            removed: 0 for the truth, but for its sampling.
-        jitter: departure from the mean of the views before and after, likewise.
-        rigid: after the motion of the whole figure in the picture alone: of the truth, what the
-            model's turn makes of it.
+        change: from view to view at the points of the model, after its turn is removed. Of the
+            truth it is 0, except for sampling.
+        jitter: departure from the mean of the views before and after, at the points of the model.
+        rigid: change after the rigid motion in the picture is removed. It includes the turn of the
+            model, also for the truth.
     """
 
     error: float
@@ -59,31 +59,38 @@ class View:
 
 
 def turntable(
-    path: Path, predictor: NormalPredictor, *, views: int = 12, figure_px: int = 448, seed: int = 0
-) -> dict[str, Wobble]:
-    """Measure the truth, the predictions and the steadied predictions of one model, which one
-    hand draws anew at each of ``views`` steps of five degrees, its front in the middle."""
-    turned = _views(load_model(path), views, figure_px, seed)
+    path: Path,
+    predictor: NormalPredictor,
+    *,
+    views: int = 12,
+    character_px: int = 448,
+    seed: int = 0,
+) -> dict[str, TurntableErrors]:
+    """Measure truth, predictions and smoothed predictions of one model.
+
+    It is drawn in one line style at ``views`` steps of five degrees, its front in the middle.
+    """
+    turned = _views(load_model(path), views, character_px, seed)
     predicted = [predictor.predict(view.lines, view.seen.mask) for view in turned]
     rows = {
         "truth": [view.seen.normals for view in turned],
         "predicted": predicted,
-        "steadied": _steadied(turned, predicted),
+        "steadied": _smoothed(turned, predicted),
     }
     return {name: _measure(turned, normals) for name, normals in rows.items()}
 
 
-def _views(model: Model, count: int, figure_px: int, seed: int) -> list[View]:
+def _views(model: Model, count: int, character_px: int, seed: int) -> list[View]:
     rotations = [
         view_rotation(STEP_DEGREES * (index - (count - 1) / 2), _ELEVATION)
         for index in range(count)
     ]
-    # One scale for all views: the figure must not breathe as it turns.
+    # One scale for all views, so that the character keeps its size as it turns.
     spans = [np.ptp(model.vertices @ r.T, axis=0)[:2].max() for r in rotations]
-    hand = Hand.random(np.random.default_rng(seed), figure_px)
+    style = LineStyle.random(np.random.default_rng(seed), character_px)
     turned = []
     for index, (rotation, span) in enumerate(zip(rotations, spans, strict=True)):
-        placed = place(model, rotation, round(figure_px * float(span / max(spans))))
+        placed = place(model, rotation, round(character_px * float(span / max(spans))))
         upright = model.vertices @ rotation.T
         scale = np.ptp(placed.vertices[:, 1]) / np.ptp(upright[:, 1])
         seen = trace_placed(placed)
@@ -93,13 +100,13 @@ def _views(model: Model, count: int, figure_px: int, seed: int) -> list[View]:
                 to_pixels=scale * rotation,
                 shift=placed.vertices[0] - scale * upright[0],
                 seen=seen,
-                lines=draw_lines(seen, hand, np.random.default_rng([seed, index])),
+                lines=draw_lines(seen, style, np.random.default_rng([seed, index])),
             )
         )
     return turned
 
 
-def _steadied(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
+def _smoothed(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
     temporal_filter = TemporalFilter()
     small = _small(views, predicted)
     return [
@@ -120,7 +127,7 @@ def _small(views: Sequence[View], normals: Sequence[Normals]) -> list[Registrati
     ]
 
 
-def _measure(views: Sequence[View], normals: Sequence[Normals]) -> Wobble:
+def _measure(views: Sequence[View], normals: Sequence[Normals]) -> TurntableErrors:
     error, change, jitter = [], [], []
     rigid = [rigid_change(here, later) for here, later in pairwise(_small(views, normals))]
     for i, view in enumerate(views):
@@ -144,11 +151,11 @@ def _measure(views: Sequence[View], normals: Sequence[Normals]) -> Wobble:
             mean = carried[0] + carried[1]
             met = np.isfinite(mean[..., 0])
             jitter.append(_angle(normals[i][met], mean[met]))
-    return Wobble(*(float(np.mean(found)) for found in (error, change, jitter, rigid)))
+    return TurntableErrors(*(float(np.mean(found)) for found in (error, change, jitter, rigid)))
 
 
 def _followed(view: View, other: View) -> NDArray[np.int64]:
-    """(H, W): flat index of the pixel of ``other`` that shows the same point; -1 for none."""
+    """(H, W): flat index of the pixel of ``other`` that shows the same point; -1 if none does."""
     rows, columns = np.nonzero(view.seen.mask)
     height = view.seen.mask.shape[0]
     points = np.stack([columns + 0.5, height - (rows + 0.5), view.seen.depth[rows, columns]], 1)

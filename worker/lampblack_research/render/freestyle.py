@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 
 _UNITS = 0.01
-"""Blender units a pixel: its clipping planes like figures of a few units."""
+"""Blender units a pixel: clipping planes suit objects of a few units."""
 
 SAMPLES = 8
 
@@ -40,7 +40,7 @@ def _draw(job: dict[str, Any], picture: Path) -> None:
     for mesh in list(bpy.data.meshes):
         bpy.data.meshes.remove(mesh)
     height, width = (int(side) for side in job["size"])
-    _figure(scene, job["vertices"] * _UNITS, job["faces"])
+    _character(scene, job["vertices"] * _UNITS, job["faces"])
     _camera(scene, width, height, float(job["vertices"][:, 2].max()) * _UNITS)
     _ink(scene, job)
     render = scene.render
@@ -57,13 +57,13 @@ def _draw(job: dict[str, Any], picture: Path) -> None:
     bpy.ops.render.render(write_still=True)
 
 
-def _figure(scene: Any, vertices: Any, faces: Any) -> None:
-    mesh = bpy.data.meshes.new("figure")
+def _character(scene: Any, vertices: Any, faces: Any) -> None:
+    mesh = bpy.data.meshes.new("character")
     mesh.from_pydata(vertices.tolist(), [], faces.tolist())
     mesh.shade_smooth()
-    figure = bpy.data.objects.new("figure", mesh)
+    character = bpy.data.objects.new("character", mesh)
     mesh.materials.append(_white())
-    scene.collection.objects.link(figure)
+    scene.collection.objects.link(character)
 
 
 def _white() -> Any:
@@ -97,7 +97,7 @@ def _ink(scene: Any, job: dict[str, Any]) -> None:
     lines = settings.linesets[0] if settings.linesets else settings.linesets.new("ink")
     lines.select_silhouette = lines.select_contour = lines.select_border = True
     lines.select_crease = crease > 0
-    style = lines.linestyle or bpy.data.linestyles.new("hand")
+    style = lines.linestyle or bpy.data.linestyles.new("ink")
     lines.linestyle = style
     for modifiers in (style.thickness_modifiers, style.geometry_modifiers):
         for modifier in list(modifiers):

@@ -1,1 +1,1 @@
-"""From a data set to a network's weights."""
+"""Trains a network on a data set."""

@@ -1,4 +1,4 @@
-"""Everything a training run needs to go on, as safetensors and JSON in its folder."""
+"""Checkpoints of a training run: safetensors, and a JSON log, in its folder."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .curve import save_curve
 
 @dataclass
 class Progress:
-    """Where a run stands: steps done, seconds trained, running mean angle in degrees."""
+    """Progress of a run: steps done, seconds trained, running mean angle in degrees."""
 
     step: int = 0
     seconds: float = 0.0
@@ -29,35 +29,38 @@ class Progress:
 
 
 class Checkpoint:
-    """``network.safetensors`` holds the averaged weights, to use, under ``card``;
-    ``checkpoint.safetensors`` all that is needed to go on; ``log.jsonl`` and ``curve.png`` the
-    course of the run."""
+    """The files of a run.
+
+    ``network.safetensors`` holds the averaged weights, with ``card`` beside it;
+    ``checkpoint.safetensors`` holds all that is needed to continue; ``log.jsonl`` and
+    ``curve.png`` show the mean angle over time.
+    """
 
     def __init__(
         self,
         folder: Path,
         network: nn.Module,
         average: nn.Module,
-        optimisers: Sequence[torch.optim.Optimizer],
+        optimizers: Sequence[torch.optim.Optimizer],
         card: NetworkCard,
     ) -> None:
         self.weights = folder / "network.safetensors"
         self._tensors = folder / "checkpoint.safetensors"
         self._log, self._curve = folder / "log.jsonl", folder / "curve.png"
         self._card = card
-        self._course: list[Progress] = []
-        self._network, self._average, self._optimisers = network, average, optimisers
+        self._logged: list[Progress] = []
+        self._network, self._average, self._optimisers = network, average, optimizers
 
     def log(self, progress: Progress) -> None:
-        """Take ``progress`` down, to be written with the next checkpoint."""
-        self._course.append(replace(progress))
+        """Append to the log, which is written with the next checkpoint."""
+        self._logged.append(replace(progress))
 
     def save(self, progress: Progress) -> None:
         """Write checkpoint, averaged weights, log and curve."""
         moments = {
             f"optimiser.{which}.{index}.{name}": torch.as_tensor(value)
-            for which, optimiser in enumerate(self._optimisers)
-            for index, moment in optimiser.state_dict()["state"].items()
+            for which, optimizer in enumerate(self._optimisers)
+            for index, moment in optimizer.state_dict()["state"].items()
             for name, value in moment.items()
         }
         named = {f"network.{n}": t for n, t in self._network.state_dict().items()}
@@ -71,17 +74,17 @@ class Checkpoint:
         }
         save_network(self.weights, self._average, replace(self._card, training=training))
         with atomic_file(self._log) as log:
-            log.writelines(msgspec.json.encode(past) + b"\n" for past in self._course)
-        if self._course:
-            minutes = [past.seconds / 60 for past in self._course]
-            angles = [past.angle for past in self._course]
+            log.writelines(msgspec.json.encode(past) + b"\n" for past in self._logged)
+        if self._logged:
+            minutes = [past.seconds / 60 for past in self._logged]
+            angles = [past.angle for past in self._logged]
             save_curve(self._curve, minutes, angles, self._card.architecture)
 
     def load(self) -> Progress:
-        """Go on from the last checkpoint, if there is one.
+        """Restore the last checkpoint, if there is one.
 
         Raises:
-            LampblackError: it is damaged, or of another network.
+            LampblackError: it is damaged, or is of another network.
         """
         if not self._tensors.exists():
             return Progress()
@@ -99,17 +102,17 @@ class Checkpoint:
                     states[int(which)].setdefault(int(index), {})[field] = tensor
             if self._log.exists():
                 lines = self._log.read_bytes().splitlines()
-                self._course = [msgspec.json.decode(line, type=Progress) for line in lines]
+                self._logged = [msgspec.json.decode(line, type=Progress) for line in lines]
         except (
             *(OSError, SafetensorError, msgspec.DecodeError),
             *(RuntimeError, KeyError, ValueError, IndexError),
         ) as error:
             raise LampblackError(
                 f"The checkpoint {self._tensors} is damaged, or of another network or version.",
-                "Remove it to begin anew.",
+                "Remove it to start again.",
                 str(error),
             ) from error
-        for optimiser, state in zip(self._optimisers, states, strict=True):
-            groups = optimiser.state_dict()["param_groups"]
-            optimiser.load_state_dict({"state": state, "param_groups": groups})
+        for optimizer, state in zip(self._optimisers, states, strict=True):
+            groups = optimizer.state_dict()["param_groups"]
+            optimizer.load_state_dict({"state": state, "param_groups": groups})
         return Progress(int(step), seconds, angle)

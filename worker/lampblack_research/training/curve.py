@@ -1,4 +1,4 @@
-"""The course of a run as a picture: the mean angle over the minutes."""
+"""A plot of the mean angle over the minutes of a run."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ INK, GRID, LINE = "#222222", "#d8d8d8", "#b03a2e"
 
 
 def save_curve(path: Path, minutes: list[float], angles: list[float], title: str) -> None:
-    """Write a PNG of mean angles in degrees at these minutes; the very first ones, of the
-    untrained network, may lie above the picture."""
+    """Write a PNG of mean angles in degrees at these minutes. The first angles, of the
+    untrained network, may lie above the plot."""
     picture = Image.new("RGB", SIZE, "white")
     pen = ImageDraw.Draw(picture)
     later = sorted(angles)[: max(1, round(0.95 * len(angles)))]

@@ -1,4 +1,4 @@
-"""Examples of what a network says while it learns, to look at."""
+"""Pictures of predictions during training."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ class Example:
     found: NDArray[np.float32]
 
 
-def looked_at(lines: Tensor, mask: Tensor, truth: Tensor, vectors: Tensor) -> list[Example]:
-    """Of (B, H, W) lines and masks and (B, 3, H, W) normals, those found of any length."""
+def make_examples(lines: Tensor, mask: Tensor, truth: Tensor, vectors: Tensor) -> list[Example]:
+    """Split a batch: (B, H, W) lines and masks, (B, 3, H, W) normals; ``vectors`` of any length."""
     unit = nn.functional.normalize(vectors.float(), dim=1)
     return [
         Example(a.numpy(), b.numpy() > 0.5, c.permute(1, 2, 0).numpy(), d.permute(1, 2, 0).numpy())
@@ -36,7 +36,7 @@ def looked_at(lines: Tensor, mask: Tensor, truth: Tensor, vectors: Tensor) -> li
 
 
 def save_examples(path: Path, examples: list[Example]) -> None:
-    """Write a PNG of three rows: the drawings, the true normals, and those found."""
+    """Write a PNG of three rows: drawings, true normals, predicted normals."""
     columns = []
     for example in examples:
         inside = example.mask[..., None]

@@ -1,8 +1,8 @@
-"""Muon: momentum whose every singular value counts the same (Jordan 2024).
+"""Muon: momentum with all singular values brought near 1 (Jordan 2024).
 
-A step of Adam's on a layer's weights is led by few directions in which all examples agree. Muon
-brings the momentum's singular values near 1, so that the rare directions are learnt as well: on
-drawings it learns more in the same time although its steps cost more.
+In a step of Adam a few directions, in which all examples agree, are the largest. Muon gives rare
+directions the same weight. On drawings it learns more in the same time, although a step takes
+longer.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ _ADAM_RMS = 0.2
 
 
 class Muon(torch.optim.Optimizer):
-    """For weights of two and more dimensions, each taken as a matrix of its outputs.
+    """For weights of two and more dimensions; each is a matrix with one row for each output.
 
-    At one learning rate its steps are as large as Adam's typically are (Liu 2025).
+    At the same learning rate its steps are about as large as Adam's (Liu 2025).
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class Muon(torch.optim.Optimizer):
 
     @torch.no_grad()
     def step(self) -> None:  # type: ignore[override]
-        """Move every weight; all must have a gradient."""
+        """Update every weight; all must have a gradient."""
         for group in self.param_groups:
             alike: dict[tuple[int, int], list[tuple[Tensor, Tensor]]] = defaultdict(list)
             for weight in group["params"]:
@@ -53,9 +53,9 @@ def orthogonal(matrices: Tensor) -> Tensor:
     """(K, m, n) float32, m at most n -> the nearest of orthonormal rows, roughly: singular values
     above a hundredth of the norm come out between 0.6 and 1.3.
 
-    Newton-Schulz iteration by a quintic (Jordan 2024) whose every round is a polynomial of
-    ``x @ x.mT``. So it is carried out on that m x m product, and ``x``, nine times as wide where
-    it comes of a 3 x 3 convolution, is multiplied once at the end.
+    Newton-Schulz iteration with a quintic (Jordan 2024). Every round is a polynomial of
+    ``x @ x.mT``, so the rounds run on that m x m product, and ``x`` is multiplied once at the end.
+    ``x`` is nine times as wide for a 3 x 3 convolution.
     """
     x = matrices / matrices.flatten(1).norm(dim=1).clamp(min=1e-7)[:, None, None]
     gram = x @ x.mT

@@ -1,4 +1,4 @@
-"""Statistics of normalisations, taken for the weights that will be used."""
+"""Batch normalisation statistics of averaged weights."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ import torch
 from torch import nn
 
 
-def retake_statistics(network: nn.Module, show: Callable[[], object], rounds: int) -> None:
-    """Take the means and variances of all batch normalisations anew.
+def recompute_statistics(network: nn.Module, forward: Callable[[], object], rounds: int) -> None:
+    """Recompute the means and variances of all batch normalisations.
 
-    Averaged weights answer with other statistics than any of the weights they are the average
-    of, so an average of statistics does not fit them.
+    The average of several weights has other statistics than each of them, and also other
+    statistics than their average.
 
     Args:
         network: in evaluation mode, and so on return.
-        show: lets ``network`` see one batch.
-        rounds: batches; all count the same.
+        forward: runs ``network`` on one batch.
+        rounds: number of batches; all have the same weight.
     """
     layers = [layer for layer in network.modules() if isinstance(layer, nn.BatchNorm2d)]
     if not layers:
@@ -28,5 +28,5 @@ def retake_statistics(network: nn.Module, show: Callable[[], object], rounds: in
     network.train()
     with torch.no_grad():
         for _ in range(rounds):
-            show()
+            forward()
     network.eval()

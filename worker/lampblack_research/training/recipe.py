@@ -1,4 +1,4 @@
-"""How every network descends."""
+"""The optimizers of every network, and their learning rates."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from torch import nn
 from .muon import Muon
 
 DECAY = 0.7
-"""The share of a run, its last, over which the learning rates fall to 0."""
+"""The learning rates fall to 0 over this last share of a run."""
 
 _WEIGHT_DECAY = 0.02
 _ADAM_RATE, _MUON_RATE = 1e-3, 3e-3
@@ -28,9 +28,9 @@ class Network(Protocol):
     def parameters(self) -> Iterator[nn.Parameter]: ...
 
 
-def optimisers(network: Network) -> list[torch.optim.Optimizer]:
-    """At their highest learning rates: Muon for the kernels of convolutions; AdamW for the
-    heads' and for what else there is: biases, normalisations, attention."""
+def build_optimizers(network: Network) -> list[torch.optim.Optimizer]:
+    """Muon for the kernels of convolutions; AdamW for the heads and for all other parameters:
+    biases, normalisations, attention. Learning rates are at their peak."""
     heads = {id(head) for head in network.heads}
     kernels = [
         layer.weight

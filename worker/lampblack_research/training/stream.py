@@ -1,4 +1,4 @@
-"""Examples for training, streamed from a data set into memory while it may still grow."""
+"""Streams training examples from a data set into memory. The data set may still grow."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from ..dataset.triple import Triple
 RESCAN_SECONDS = 60
 FEWEST = 64
 RENEWED = 8
-"""Examples taken in with each batch at most, if the loader has made as many: a new one teaches
-more than one that is seen again."""
+"""Largest number of new examples added before each batch. New ones teach more than repeated
+ones."""
 
 _PATIENCE_SECONDS = 30
 
@@ -33,14 +33,14 @@ Prepare = Callable[[Triple, np.random.Generator], Example]
 
 
 class Stream(Generic[Example]):
-    """Keeps ``capacity`` examples, renewed by a loader process; a context manager.
+    """Keeps ``capacity`` examples; a loader process replaces them. Use as a context manager.
 
-    Sources are drawn by the square root of their number of entries, so that the many soldiers
-    of one game do not drown the few cartoon figures of another.
+    A source is chosen with a probability that grows with the square root of its number of entries,
+    so that a large source does not dominate the small ones.
 
     Args:
         data: a folder of triples, see ``dataset.build``.
-        prepare: makes an example of a triple; called in the loader, so it must be importable.
+        prepare: makes an example from a triple. It runs in the loader, so it must be importable.
         kind: examples of one kind may share a batch.
     """
 
@@ -82,7 +82,7 @@ class Stream(Generic[Example]):
         self._loader.join()
 
     def take(self, size: int, rng: np.random.Generator) -> list[Example]:
-        """``size`` examples of one kind, drawn at random; new ones are taken in."""
+        """Add new examples; then return ``size`` random examples of one kind."""
         self._renew(RENEWED, rng)
         kinds = list(self._kept)
         counts = np.array([len(self._kept[kind]) for kind in kinds])
@@ -90,7 +90,7 @@ class Stream(Generic[Example]):
         return [kept[rng.integers(len(kept))] for _ in range(size)]
 
     def _renew(self, most: int, rng: np.random.Generator) -> None:
-        """Wait for new examples only while there are few."""
+        """Wait for new examples only while there are too few."""
         while most > 0 or self._count < self._fewest:
             scarce = self._count < self._fewest
             try:
@@ -119,9 +119,9 @@ def entries_by_source(data: Path) -> dict[str, list[Path]]:
 
 
 def _load(fresh: Queue[Example], data: Path, prepare: Prepare[Example], seed: int) -> None:
-    """The loader process: it dies with its parent."""
+    """The loader process. It ends when its parent ends."""
     torch.set_num_threads(1)
-    fresh.cancel_join_thread()  # or it would wait for a dead parent to take what is left
+    fresh.cancel_join_thread()  # otherwise it waits at exit for a dead parent to read the queue
     parent = os.getppid()
     rng = np.random.default_rng([seed, 1])
     scanned = -float("inf")

@@ -1,4 +1,4 @@
-"""One view, many shapes: turned, stretched, sheared and bent in the picture plane."""
+"""Random maps of the picture plane, applied to a view and its normals: turn, stretch, bend."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ slope of each wave."""
 
 WAVES = 3
 WAVE_NUMBERS = (1.2, 4.5)
-"""Radians per half of the figure's longer side, shortest and longest."""
+"""Radians per half of the character's longer side, shortest and longest."""
 
 _STEEPEST = 0.25
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """A map of the picture plane, x right, y up, in halves of the figure's longer side.
+    """A map of the picture plane, x right, y up, in halves of the character's longer side.
 
     Attributes:
-        matrix: (2, 2) its linear part, from the figure to the stretched figure.
-        waves: (K, 2) wave vectors, in the plane of the stretched figure.
-        heights: (K,) how far each wave moves what is seen, across its direction.
+        matrix: (2, 2) its linear part, from the character to the stretched character.
+        waves: (K, 2) wave vectors, in the plane of the stretched character.
+        heights: (K,) how far each wave moves a point, across its direction.
         phases: (K,) radians.
     """
 
@@ -40,8 +40,8 @@ class Stretch:
     phases: Vectors
 
     def source(self, places: Plane) -> tuple[Plane, Plane]:
-        """Where in the figure (H, W, 2) places of the stretched figure come from, and the
-        (H, W, 2, 2) derivatives of that."""
+        """The points of the character that (H, W, 2) points of the stretched character come from,
+        and their (H, W, 2, 2) derivatives."""
         back = np.linalg.inv(self.matrix)
         across = self._across()
         slopes = np.einsum("kd,ke->kde", across, self.waves).reshape(-1, 4)
@@ -51,7 +51,7 @@ class Stretch:
         return came, derivatives.reshape(*places.shape, 2)
 
     def farthest(self) -> float:
-        """A bound of how far the waves move anything in the stretched figure."""
+        """An upper bound of how far the waves move a point of the stretched character."""
         return float(1.5 * np.linalg.norm(self.matrix, 2) * np.abs(self.heights).sum())
 
     def _across(self) -> Vectors:
@@ -66,7 +66,7 @@ def linear_stretch(matrix: Vectors) -> Stretch:
 
 
 def random_stretch(rng: np.random.Generator) -> Stretch:
-    """A map whose linear part keeps areas; its waves shear, so that each keeps them too."""
+    """A map whose linear part and whose waves each keep areas."""
     turn = rng.normal(0, TURN)
     shear, stretch = rng.normal(0, STRETCH, 2)
     strength = max(float(np.hypot(shear, stretch)), 1e-9)
@@ -82,11 +82,10 @@ def random_stretch(rng: np.random.Generator) -> Stretch:
 
 
 def stretched(planes: Plane, stretch: Stretch) -> Plane:
-    """A picture under a map of its plane, with the normals of the stretched body.
+    """Apply a map to a picture and to its normals.
 
-    Without perspective a view of a body that is moved within planes parallel to the picture is
-    the moved view, and its normals follow by the inverse transpose: one view makes many figures,
-    all exact.
+    Moving a body in planes parallel to the picture moves its orthographic view the same way, and
+    its normals change by the inverse transpose. So one view gives many characters, all exact.
 
     Args:
         planes: (H, W, C) float32; the first three are normals (x right, y up, z to the viewer)

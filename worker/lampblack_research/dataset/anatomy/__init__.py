@@ -1,1 +1,1 @@
-"""How made-up figures are built: the clay, the cloth, the faces and the bodies."""
+"""Builds random cartoon characters: implicit surfaces, surfaces of revolution, faces, bodies."""

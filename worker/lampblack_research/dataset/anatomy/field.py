@@ -1,4 +1,4 @@
-"""The distance field of blended parts, and the mesh of its zero.
+"""The signed distance field of blended parts, and the mesh of its zero level.
 
 Round cones and ellipsoids as in Quilez, "Distance functions"; their cubic smooth union leaves no
 crease where its radius is large. The surface is found by naive surface nets (Gibson 1998), and
@@ -19,9 +19,9 @@ Vector = NDArray[np.float64]
 
 CONE, ELLIPSOID = 0, 1
 BLOCK = 8
-"""Cells along the side of a block, all of which feel the same parts."""
+"""Cells along the side of a block. The same parts affect all of them."""
 
-_SLACK = 1.25  # an ellipsoid's distance is only nearly one
+_SLACK = 1.25  # an ellipsoid's distance is an estimate
 _FAR, _UNKNOWN = 1e3, 1e2
 
 
@@ -86,7 +86,7 @@ def _distance(
 def fill(
     parts: Vector, waves: Vector, swell: float, low: Vector, cell: float, blocks: NDArray[np.int64]
 ) -> tuple[Vector, NDArray[np.int16], NDArray[np.int64]]:
-    """The field where the surface may be, by the block, and the parts that each block feels."""
+    """Compute the field in blocks near the surface, and which parts affect each block."""
     sides = blocks * BLOCK + 1
     field = np.full((sides[0], sides[1], sides[2]), _FAR)
     near = np.zeros((blocks[0], blocks[1], blocks[2], len(parts)), np.int16)
@@ -142,7 +142,7 @@ def fill(
 def net(
     field: Vector, low: Vector, cell: float
 ) -> tuple[Vector, NDArray[np.int64], NDArray[np.int64]]:
-    """One vertex in every cell through which the surface goes, four of them round every edge."""
+    """Surface nets: one vertex in every cell that the surface crosses; a quad around every edge."""
     width, height, depth = field.shape
     index = np.full((width, height, depth), -1, np.int32)
     count = 0
@@ -212,7 +212,7 @@ def settle(
     counts: NDArray[np.int64],
     cell: float,
 ) -> Vector:
-    """Move ``vertices`` onto the surface, by Newton's method; returns their normals."""
+    """Move ``vertices`` onto the surface by Newton's method; return their normals."""
     normals = np.empty_like(vertices)
     h = 0.05 * cell
     for n in range(len(vertices)):

@@ -1,4 +1,4 @@
-"""A figure in the making: its blended body, what is laid onto it, and its head."""
+"""Builds a character from a blended body and parts attached to it."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from ..models import Model
-from .clay import Clay, Mesh
 from .field import Vector
-from .turned import turned
+from .implicit_surface import ImplicitSurface, Mesh
+from .lathe import lathe
 
 
 def aim(yaw: float, pitch: float, roll: float = 0.0) -> Vector:
-    """(3, 3) rotation, degrees: of z to the left of the figure (x), then up, about itself."""
+    """(3, 3) rotation, degrees: turns z to the character's left (x), then up, then about itself."""
     turn: Vector = Rotation.from_euler("YXZ", [yaw, -pitch, roll], degrees=True).as_matrix()
     return turn
 
@@ -36,14 +36,14 @@ def _ball() -> Mesh:
 
 @dataclass(frozen=True)
 class Ball:
-    """An ellipsoid that carries others: a head, a belly."""
+    """An ellipsoid on which other parts are placed: a head, a belly."""
 
     centre: Vector
     radii: Vector
     turn: Vector
 
     def at(self, x: float, y: float, z: float, depth: float = 1.0) -> Vector:
-        """The point of the surface in a direction of its own; ``depth`` 0 is the centre."""
+        """The point of the surface in a direction of its axes; ``depth`` 0 is the centre."""
         direction = np.array([x, y, z]) / np.linalg.norm([x, y, z])
         point: Vector = self.centre + self.turn @ (self.radii * direction * depth)
         return point
@@ -53,17 +53,20 @@ class Ball:
         return towards(self.turn @ (np.array([x, y, z]) / self.radii))
 
 
-class Figure:
-    """What is blended lies in ``body``, what is laid on in meshes of its own."""
+class CharacterBuilder:
+    """Parts are blended into ``body``, or attached as meshes of their own.
+
+    Sizes and angles are drawn from ``rng``.
+    """
 
     def __init__(self, rng: np.random.Generator) -> None:
         self.rng = rng
-        self.body = Clay()
+        self.body = ImplicitSurface()
         self.softness = float(np.exp(rng.uniform(np.log(0.08), np.log(1.3))))
         """How far parts flow into one another, as a share of their radius."""
-        self._laid: list[Mesh] = []
+        self._attached: list[Mesh] = []
 
-    def some(self, share: float) -> bool:
+    def chance(self, share: float) -> bool:
         return bool(self.rng.random() < share)
 
     def pick(self, *kinds: str) -> str:
@@ -85,12 +88,12 @@ class Figure:
         self.body.ellipsoid(centre, np.array(radii), self.softness * min(radii), turn)
         return Ball(centre, np.array(radii), np.eye(3) if turn is None else turn)
 
-    def limb(self, points: list[Vector], radii: list[float], *, laid: bool = False) -> None:
-        """Blend a chain of round cones into the body, or lay it on."""
-        clay = Clay() if laid else self.body
-        clay.chain(np.array(points), np.array(radii), self.softness * radii[0])
-        if laid:
-            self.lay(clay.mesh(56))
+    def limb(self, points: list[Vector], radii: list[float], *, attached: bool = False) -> None:
+        """Blend a chain of round cones into the body, or attach it."""
+        surface = ImplicitSurface() if attached else self.body
+        surface.chain(np.array(points), np.array(radii), self.softness * radii[0])
+        if attached:
+            self.attach(surface.mesh(56))
 
     def curl(
         self, start: Vector, turn: Vector, length: float, radii: tuple[float, float], sway: float
@@ -105,10 +108,10 @@ class Figure:
             widths.append(radii[0] + (radii[1] - radii[0]) * step / steps)
         return points, widths, turn
 
-    def lay(
+    def attach(
         self, mesh: Mesh, centre: Vector | None = None, transform: Vector | None = None
     ) -> None:
-        """Lay a mesh onto the figure, unblended; ``transform`` (3, 3) may stretch it."""
+        """Add a mesh without blending; ``transform`` (3, 3) may stretch it."""
         vertices, normals = mesh.vertices, mesh.normals
         if transform is not None:
             vertices = vertices @ transform.T
@@ -116,13 +119,13 @@ class Figure:
             normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
         if centre is not None:
             vertices = vertices + centre
-        self._laid.append(Mesh(vertices, mesh.faces, normals))
+        self._attached.append(Mesh(vertices, mesh.faces, normals))
 
-    def lay_ball(self, centre: Vector, radii: list[float], turn: Vector | None = None) -> None:
+    def attach_ball(self, centre: Vector, radii: list[float], turn: Vector | None = None) -> None:
         stretch = np.diag(radii) if turn is None else turn * radii
-        self.lay(_ball(), centre, stretch)
+        self.attach(_ball(), centre, stretch)
 
-    def lay_turned(
+    def attach_lathed(
         self,
         centre: Vector,
         turn: Vector,
@@ -130,13 +133,13 @@ class Figure:
         thickness: float,
         **cloth: float,
     ) -> None:
-        """Lay a turned thing onto the figure, the y of ``turn`` its axis."""
+        """Attach a surface of revolution, see ``lathe``; the y of ``turn`` is its axis."""
         folds = int(cloth.pop("folds", 0))
-        self.lay(turned(np.array(profile), thickness, folds=folds, **cloth), centre, turn)
+        self.attach(lathe(np.array(profile), thickness, folds=folds, **cloth), centre, turn)
 
     def model(self, name: str) -> Model:
-        """The whole, centred, bounding-box half diagonal 1."""
-        meshes = [self.body.mesh(), *self._laid]
+        """All parts as one mesh, centred, its bounding-box half diagonal 1."""
+        meshes = [self.body.mesh(), *self._attached]
         starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
         vertices = np.concatenate([mesh.vertices for mesh in meshes])
         faces = np.concatenate(

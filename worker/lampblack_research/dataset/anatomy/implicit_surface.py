@@ -1,4 +1,4 @@
-"""Smooth bodies: round cones and ellipsoids kneaded together."""
+"""Smooth bodies: the union of round cones and ellipsoids, blended where they meet."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Mesh:
     normals: Vector
 
 
-class Clay:
-    """Parts joined one by one, each with the radius of its blend with what was there before."""
+class ImplicitSurface:
+    """Parts are joined one by one; each has a radius over which it blends with those before it."""
 
     def __init__(self) -> None:
         self._parts: list[Vector] = []
@@ -44,7 +44,7 @@ class Clay:
     def chain(self, points: Vector, radii: Vector, blend: float) -> None:
         """Round cones through ``points`` (N, 3) with ``radii`` (N,): a limb, a tail, a trunk.
 
-        Only the first blends by ``blend``; the joints of the others, the more they are bent.
+        Only the first cone blends by ``blend``. The others blend by their joint's angle.
         """
         straight = np.diff(points, axis=0)
         straight /= np.maximum(np.linalg.norm(straight, axis=1, keepdims=True), 1e-12)
@@ -62,15 +62,15 @@ class Clay:
         self._bounds += [centre - reach, centre + reach]
 
     def dent(self, centre: Vector, radii: Vector, blend: float, turn: Vector | None = None) -> None:
-        """Take an ellipsoid away, its rim rounded by ``blend``."""
+        """Subtract an ellipsoid; its rim is rounded by ``blend``."""
         self._ellipsoid(-1, centre, radii, blend, turn)
 
     def wave(self, frequency: Vector, phase: float, amplitude: float) -> None:
-        """Let all of it swell and sink by ``amplitude`` sin(``frequency`` p + ``phase``)."""
+        """Displace the whole surface by ``amplitude`` sin(``frequency`` p + ``phase``)."""
         self._waves.append(np.array([*frequency, phase, amplitude]))
 
     def mesh(self, cells: int = CELLS) -> Mesh:
-        """The surface, ``cells`` of its grid along the long side."""
+        """Extract the surface on a grid of ``cells`` along the long side."""
         parts = np.array(self._parts)
         waves = np.array(self._waves).reshape(-1, _WAVES)
         bounds = np.array(self._bounds)

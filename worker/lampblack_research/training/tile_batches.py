@@ -1,4 +1,4 @@
-"""How the paper's networks are taught: tiles of 256 x 256 at three scales."""
+"""Batches for the paper's networks: tiles of 256 x 256 at three scales."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from lampblack.normals.precision import fast_arithmetic
 from lampblack.normals.tiles import ALIGNMENT, TILE, TileSource
 
 from ..dataset.triple import Triple
-from .example import Example, looked_at
-from .figure_loss import Loss, angles
+from .character_loss import Loss, angles
+from .example import Example, make_examples
 from .stream import Stream
 
 Tile = tuple[NDArray[np.float32], NDArray[np.float32]]
@@ -25,7 +25,7 @@ Tile = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 @dataclass(frozen=True)
 class View:
-    """One drawing of a triple, as it is kept: lines (H, W) uint8, 255 is full ink; mask (H, W)
+    """One drawing of a triple: lines (H, W) uint8, 255 is full ink; mask (H, W)
     bool; normals (H, W, 3) int8, 127 is 1."""
 
     lines: NDArray[np.uint8]
@@ -33,7 +33,7 @@ class View:
     normals: NDArray[np.int8]
 
     def tile(self, rng: np.random.Generator) -> Tile:
-        """A random tile about a figure pixel, mirrored half of the time.
+        """A random tile near a pixel of the character, mirrored half the time.
 
         Returns:
             (4, 256, 256) float32 input and (3, 256, 256) float32 truth.
@@ -58,12 +58,12 @@ class View:
 
 
 def view_of(triple: Triple, rng: np.random.Generator) -> View:
-    """A triple as one of its hands drew it."""
+    """A random drawing of a triple."""
     return View(triple.drawings[rng.integers(len(triple.drawings))], triple.mask, triple.normals)
 
 
-class TileCourse:
-    """Batches of tiles, and their loss; a context manager."""
+class TileBatches:
+    """Batches of tiles, and their loss. Use as a context manager."""
 
     def __init__(self, data: Path, seed: int, capacity: int = 2000) -> None:
         self._rng = np.random.default_rng(seed)
@@ -77,7 +77,7 @@ class TileCourse:
         self._stream.__exit__(None, None, None)
 
     def loss(self, network: nn.Module, size: int) -> Loss:
-        """What ``network`` makes of the next ``size`` tiles."""
+        """The loss of ``network`` on the next ``size`` tiles."""
         tiles, truth = self._batch(size)
         mask = tiles[:, 3:4]
         with fast_arithmetic():
@@ -88,11 +88,11 @@ class TileCourse:
         return Loss(normal_loss(predicted, truth, mask), math.degrees(float(angle)))
 
     def examples(self, network: nn.Module, size: int) -> list[Example]:
-        """What ``network``, in evaluation mode, makes of ``size`` tiles, to look at."""
+        """Predictions of ``network``, in evaluation mode, for ``size`` tiles."""
         tiles, truth = self._batch(size)
         with torch.inference_mode(), fast_arithmetic():
             predicted = network(tiles)
-        return looked_at(tiles[:, 0], tiles[:, 3], truth, predicted)
+        return make_examples(tiles[:, 0], tiles[:, 3], truth, predicted)
 
     def _batch(self, size: int) -> tuple[Tensor, Tensor]:
         cut = [view.tile(self._rng) for view in self._stream.take(size, self._rng)]
@@ -102,7 +102,7 @@ class TileCourse:
 
 
 def _one_kind(view: View) -> None:
-    """Tiles of any view may share a batch."""
+    """Tiles of all views may share a batch."""
 
 
 def normal_loss(predicted: Tensor, truth: Tensor, mask: Tensor) -> Tensor:

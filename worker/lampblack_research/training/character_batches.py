@@ -1,4 +1,4 @@
-"""How the figure network is taught: whole figures on canvases of one area."""
+"""Batches for the character network: whole characters on canvases of one area."""
 
 from __future__ import annotations
 
@@ -25,19 +25,26 @@ from lampblack.normals.character import (
 from lampblack.normals.precision import fast_arithmetic
 
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
-from .example import Example, looked_at
-from .figure_loss import Batch, Loss, figure_loss
+from .character_loss import Batch, Loss, character_loss
+from .example import Example, make_examples
 from .stream import Stream
 from .stretch import random_stretch, stretched
 
-FULL_BATCH_SIDE, FEWEST_FIGURES = 256, 4
+FULL_BATCH_SIDE, SMALLEST_BATCH = 256, 4
 
 
 @dataclass(frozen=True)
-class Figure:
-    """A triple on its canvas: inks (K, H, W) uint8; mask (H, W) bool; normals (H, W, 3) int8;
-    shape (8, h, w) float16, see ``figure.shape_maps``; auxiliary (3, h, w) float16: depth about
-    its mean in canvas sides, share of near and of far sides of occlusions."""
+class CanvasCharacter:
+    """A triple's character on its canvas.
+
+    Attributes:
+        inks: (K, H, W) uint8, its drawings; 255 is full ink.
+        mask: (H, W) bool.
+        normals: (H, W, 3) int8, 127 is 1.
+        shape: (8, h, w) float16, see ``shape_maps``.
+        auxiliary: (3, h, w) float16: depth minus its mean, in canvas sides; near and far sides of
+            occlusions, 0 or 1.
+    """
 
     inks: NDArray[np.uint8]
     mask: NDArray[np.bool_]
@@ -46,8 +53,10 @@ class Figure:
     auxiliary: NDArray[np.float16]
 
 
-def figure_of(triple: Triple, rng: np.random.Generator, sides: Sequence[int]) -> Figure:
-    """Lay the triple's figure, each time stretched, on a canvas of one of ``sides``."""
+def place_on_canvas(
+    triple: Triple, rng: np.random.Generator, sides: Sequence[int]
+) -> CanvasCharacter:
+    """Stretch the triple's character at random, and place it on a canvas of one of ``sides``."""
     side = int(rng.choice(sides))
     box = _box(triple.mask)
     inside = triple.mask[box].astype(np.float32)
@@ -57,15 +66,15 @@ def figure_of(triple: Triple, rng: np.random.Generator, sides: Sequence[int]) ->
     planes += [depth[..., None], inside[..., None]]
     planes += [(triple.occlusion[box] == near)[..., None] for near in (IN_FRONT, BEHIND)]
     picture = np.concatenate(planes, axis=2, dtype=np.float32)
-    # Stretching costs by the pixel, and most of a triple's are more than the canvas holds.
+    # Stretching costs time for every pixel, and a triple has more than the canvas needs.
     smaller = min(1.0, 1.5 * side / inside.size**0.5)
     picture = resize(picture, tuple(max(1, round(n * smaller)) for n in inside.shape))
     picture = stretched(picture, random_stretch(rng))
     picture = picture[_box(picture[..., -3] > 0.5)]
     canvas = canvas_for(picture.shape[:2], side, float(rng.uniform(0.85, 1)))
-    laid = lay(picture, canvas)
+    placed = lay(picture, canvas)
     count = len(triple.drawings)
-    normals, inks, rest = np.split(laid, [3, 3 + count], axis=2)
+    normals, inks, rest = np.split(placed, [3, 3 + count], axis=2)
     share = rest[..., 1:2]
     mask = share[..., 0] > 0.5
     normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-6)
@@ -76,7 +85,7 @@ def figure_of(triple: Triple, rng: np.random.Generator, sides: Sequence[int]) ->
     cells = cells.reshape(3, h, COARSE, w, COARSE)
     auxiliary = np.concatenate([cells[:1].mean((2, 4)), cells[1:].max(axis=(2, 4)) > 0.25])
     inks = np.clip(inks / np.maximum(share, 0.25), 0, 1) * mask[..., None]
-    return Figure(
+    return CanvasCharacter(
         np.round(inks.transpose(2, 0, 1) * 255).astype(np.uint8),
         mask,
         np.round(normals * mask[..., None] * 127).astype(np.int8),
@@ -90,16 +99,16 @@ def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
-class FigureCourse:
-    """Batches of whole figures, all of one canvas shape, half of them mirrored, and their loss.
+class CharacterBatches:
+    """Batches of whole characters, all of one canvas shape, half of them mirrored, and their loss.
 
-    ``sides`` are those of the squares whose areas the canvases have: a network that knows
-    several sees a figure's whole and its parts. Use as a context manager.
+    A canvas has the area of a square of one of ``sides``. A network trained on several sides sees
+    a character both as a whole and in its parts. Use as a context manager.
     """
 
     def __init__(self, data: Path, sides: Sequence[int], seed: int, capacity: int = 2000) -> None:
         self._rng = np.random.default_rng(seed)
-        prepare = partial(figure_of, sides=sides)
+        prepare = partial(place_on_canvas, sides=sides)
         self._stream = Stream(data, prepare, _canvas_shape, seed=seed, capacity=capacity)
 
     def __enter__(self) -> Self:
@@ -110,33 +119,33 @@ class FigureCourse:
         self._stream.__exit__(None, None, None)
 
     def loss(self, network: nn.Module, size: int) -> Loss:
-        """What ``network`` makes of the next ``size`` figures."""
+        """The loss of ``network`` on the next ``size`` characters."""
         batch = self._batch(size)
         with fast_arithmetic():
             found = network(batch.fine, batch.coarse)
-        return figure_loss(found, batch)
+        return character_loss(found, batch)
 
     def examples(self, network: nn.Module, size: int) -> list[Example]:
-        """What ``network``, in evaluation mode, makes of ``size`` figures, to look at."""
+        """Predictions of ``network``, in evaluation mode, for ``size`` characters."""
         batch = self._batch(size)
         with torch.inference_mode(), fast_arithmetic():
             vectors, _, _ = network(batch.fine, batch.coarse)
-        return looked_at(batch.fine[:, 0], batch.fine[:, 1], batch.normals, vectors)
+        return make_examples(batch.fine[:, 0], batch.fine[:, 1], batch.normals, vectors)
 
     def _batch(self, size: int) -> Batch:
-        figures = self._stream.take(size, self._rng)
-        rows, columns = figures[0].mask.shape
-        # Large canvases cost their area: fewer of them make a batch.
-        fewer = max(FEWEST_FIGURES, round(size * FULL_BATCH_SIDE**2 / (rows * columns)))
-        return stack([sample(f, self._rng) for f in figures[:fewer]])
+        characters = self._stream.take(size, self._rng)
+        rows, columns = characters[0].mask.shape
+        # Time grows with the area of the canvas: a batch of large ones is smaller.
+        fewer = max(SMALLEST_BATCH, round(size * FULL_BATCH_SIDE**2 / (rows * columns)))
+        return _stack([input_and_truth(each, self._rng) for each in characters[:fewer]])
 
 
-def _canvas_shape(figure: Figure) -> tuple[int, ...]:
-    return figure.mask.shape
+def _canvas_shape(character: CanvasCharacter) -> tuple[int, ...]:
+    return character.mask.shape
 
 
-def stack(samples: list[tuple[NDArray[np.float32], ...]]) -> Batch:
-    """A batch of what ``sample`` made."""
+def _stack(samples: list[tuple[NDArray[np.float32], ...]]) -> Batch:
+    """A batch of results of ``input_and_truth``."""
     fine, coarse, normals, auxiliary = (
         torch.from_numpy(np.stack(part)) for part in zip(*samples, strict=True)
     )
@@ -149,13 +158,15 @@ def stack(samples: list[tuple[NDArray[np.float32], ...]]) -> Batch:
     )
 
 
-def sample(figure: Figure, rng: np.random.Generator) -> tuple[NDArray[np.float32], ...]:
-    """Input and truth of a figure as one of its hands drew it; see ``Batch``."""
-    ink = figure.inks[rng.integers(len(figure.inks))] / np.float32(255)
-    fine = np.stack([ink, figure.mask.astype(np.float32)])
-    coarse = coarse_maps(figure.shape.astype(np.float32), ink)
-    normals = figure.normals.transpose(2, 0, 1) / np.float32(127)
-    auxiliary = figure.auxiliary.astype(np.float32)
+def input_and_truth(
+    character: CanvasCharacter, rng: np.random.Generator
+) -> tuple[NDArray[np.float32], ...]:
+    """Input and truth of one of the drawings, see ``Batch``; mirrored half the time."""
+    ink = character.inks[rng.integers(len(character.inks))] / np.float32(255)
+    fine = np.stack([ink, character.mask.astype(np.float32)])
+    coarse = coarse_maps(character.shape.astype(np.float32), ink)
+    normals = character.normals.transpose(2, 0, 1) / np.float32(127)
+    auxiliary = character.auxiliary.astype(np.float32)
     parts = [fine, coarse, normals, auxiliary]
     if rng.random() < 0.5:
         parts = [part[..., ::-1].copy() for part in parts]

@@ -1,4 +1,4 @@
-"""Things turned on a lathe or sewn from cloth: hats, brims, bowls, collars, skirts and capes."""
+"""Surfaces of revolution with folds: hats, brims, bowls, collars, skirts and capes."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from .clay import Mesh
 from .field import Vector
+from .implicit_surface import Mesh
 
 _ALONG, _ROUND_END, _AROUND = 24, 6, 120
 
 
-def turned(
+def lathe(
     profile: Vector,
     thickness: float,
     *,
@@ -23,8 +23,8 @@ def turned(
 ) -> Mesh:
     """A wall of ``thickness`` along ``profile`` (N, 2: radius, height), turned about y.
 
-    ``folds`` waves run around it, ``depth`` of the radius deep at the end of the profile and flat
-    at its start. Of an ``arc`` under 360 degrees the middle is behind, as a cape's is.
+    ``folds`` waves run around it. At the end of the profile they are ``depth`` of the radius deep,
+    at its start flat. An ``arc`` under 360 degrees has its middle behind, as a cape does.
     """
     share, closed = _wall(profile, thickness)
     whole = arc >= 360
@@ -52,8 +52,8 @@ def turned(
 
 
 def _wall(profile: Vector, thickness: float) -> tuple[Vector, Vector]:
-    """A closed curve (M, 2) about ``profile``, its ends round, counter-clockwise of a wall seen
-    cut at the right; and the share of the profile's length at each of its points (M,)."""
+    """The wall's cross-section: a closed counter-clockwise curve (M, 2) with round ends, and the
+    share of the profile's length at each of its points (M,)."""
     steps = np.linalg.norm(np.diff(profile, axis=0), axis=1)
     length = np.concatenate([[0], np.cumsum(steps)]) / steps.sum()
     share = np.linspace(0, 1, _ALONG)

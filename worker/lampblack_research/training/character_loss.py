@@ -1,4 +1,4 @@
-"""What the figure network is taught: angle, certainty, depth and occlusions."""
+"""Loss of the character network: angle, certainty, depth and occlusions."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ class Batch:
 
 @dataclass(frozen=True)
 class Loss:
-    """``total`` to descend; ``angle`` in degrees, the mean over drawings of their mean."""
+    """``total`` to minimise; ``angle`` in degrees, the mean over drawings of their means."""
 
     total: Tensor
     angle: float
 
 
-def figure_loss(found: tuple[Tensor, Tensor, Tensor], batch: Batch) -> Loss:
-    """The mean angle over each figure, and the auxiliary terms.
+def character_loss(found: tuple[Tensor, Tensor, Tensor], batch: Batch) -> Loss:
+    """The mean angle over each character, and the auxiliary terms.
 
     Certainty is the negative log-likelihood of the angular von Mises-Fisher distribution (Bae
-    2021); the normals are not led by it, or they would be learnt where they are easy.
+    2021); no gradient of it reaches the normals, so that hard places count as much as easy ones.
     """
     vectors, certainty, auxiliary = found
     mask = batch.fine[:, 1]
@@ -62,7 +62,7 @@ def figure_loss(found: tuple[Tensor, Tensor, Tensor], batch: Batch) -> Loss:
 def angles(a: Tensor, b: Tensor) -> Tensor:
     """Angle in radians between two (B, 3, H, W) maps of unit vectors: (B, H, W).
 
-    From the chord, whose slope stays finite where the arc cosine's does not.
+    Computed from the chord, because the derivative of the arc cosine is infinite at 0.
     """
     half = (a - b).square().sum(dim=1).add(1e-6).sqrt() / 2
     return 2 * torch.asin(half.clamp(max=0.9999))
