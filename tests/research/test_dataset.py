@@ -1,4 +1,4 @@
-"""The data set: the same every time, exact, and told apart from what is none."""
+"""The data set: reproducible and exact; other files are refused."""
 
 from __future__ import annotations
 

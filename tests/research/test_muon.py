@@ -1,4 +1,4 @@
-"""Muon: steps of equal singular values, and all that is needed to go on with it."""
+"""Muon: steps with equal singular values; checkpoints restore its state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Figures stretched for training: their normals are those of the stretched body."""
+"""Stretched characters: their normals are those of the stretched body."""
 
 from __future__ import annotations
 
