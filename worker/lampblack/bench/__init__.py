@@ -1,1 +1,1 @@
-"""Speed, measured: what ``lampblack bench`` runs. Nothing here is asserted by a test."""
+"""Benchmarks that ``lampblack bench`` runs. No test asserts their results."""

@@ -1,4 +1,4 @@
-"""A whole shot at final quality: what a frame costs, and what of that is not the renderer."""
+"""A whole shot at final quality: the time per frame, and the share outside the renderer."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .memory import peak_gib, processor_seconds
 
 
 class _TimedChild(RenderChild):
-    """Adds up how long the renderer was waited for."""
+    """Sums the time spent waiting for the renderer."""
 
     seconds = 0.0
 
@@ -30,9 +30,9 @@ class _TimedChild(RenderChild):
 
 
 def bench_animation(source: Path, scene: Path | None) -> dict[str, float]:
-    """Wall seconds of a shot, nothing cached, and of each of its distinct drawings; the share of
-    them in which the renderer had nothing to do; the share of processor time that was spent outside
-    it, which says more on a busy machine; the peak memory of all processes, at most.
+    """Wall seconds of a shot with empty caches, and per distinct drawing; the share of that time in
+    which the renderer was idle; the share of processor time outside the renderer, which is more
+    reliable on a busy machine; and an upper bound on the peak memory of all processes.
 
     Args:
         source: a project or a folder. scene: its quality is ignored.

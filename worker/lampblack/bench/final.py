@@ -21,9 +21,9 @@ from .memory import peak_gib
 
 
 def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) -> dict[str, float]:
-    """Wall seconds of one whole final frame (nothing cached, renderer warm), for the scene
-    without its floor and with one; with ``reference`` also the rmse (sRGB, 0 to 1, over
-    white, where either picture shows anything) against 512 samples of every pixel.
+    """Wall seconds of one final frame (nothing cached, renderer started), for the scene without
+    a floor and with one. With ``reference`` also the rmse (sRGB, 0 to 1, over white, where either
+    picture is not empty) against 512 samples per pixel.
 
     Args:
         picture: (H, W, 4) uint8. scene: lights and materials; its quality is ignored.
@@ -49,14 +49,14 @@ def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) ->
 
 
 def _rmse(a: NDArray[np.uint8], b: NDArray[np.uint8]) -> float:
-    """Over the pixels that either picture covers, laid over white."""
+    """Root mean square error over the pixels that either picture covers, composited on white."""
     one, other = (1 + (p[..., :3] / 255.0 - 1) * (p[..., 3:] / 255.0) for p in (a, b))
     covered = (a[..., 3] > 0) | (b[..., 3] > 0)
     return float(np.sqrt(np.square(one - other)[covered].mean()))
 
 
 def _moved(scene: Scene) -> Scene:
-    """Every light a pixel further: none of them is at hand."""
+    """Move every light by one pixel, so that none of them is cached."""
     lights = tuple(replace(light, x=light.x + 1) for light in scene.lights)
     return replace(scene, lights=lights)
 

@@ -1,4 +1,4 @@
-"""What relighting cannot be faster than: Cycles alone, without socket, denoiser or composite."""
+"""The lower bound on relighting: Cycles alone, without socket and composite."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ RENDERS = 15
 
 
 def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
-    """Median ms of one moved light traced, by its size and samples, with and without the
+    """Median ms of tracing one moved light, by picture size and samples, with and without the
     denoiser."""
     with TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
         drawing = prepare_quick("", DrawingPlanes(picture), pipeline)

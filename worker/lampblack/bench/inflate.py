@@ -1,4 +1,4 @@
-"""How fast and how close to the least energy each solver inflates a normal map."""
+"""Speed and final energy of both inflation solvers."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ the canvas."""
 
 
 def synthetic_character(size: int = 1000) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Exact normals (size, size, 3) and mask of an upright figure made of ellipsoids.
+    """Exact normals (size, size, 3) and mask of a standing character made of ellipsoids.
 
-    Its limbs overlap, so the normals have creases and rims inside the figure. At the default
-    size over 400 000 pixels are inside.
+    Its limbs overlap, so the normals have creases and rims inside the mask. At the default size
+    over 400 000 pixels are inside.
     """
     row, column = np.indices((size, size))
     x, y = (column + 0.5) / size - 0.5, 0.5 - (row + 0.5) / size

@@ -8,14 +8,14 @@ from pathlib import Path
 
 
 def peak_gib() -> float:
-    """Upper bound on memory held at once, GiB: this process's peak plus the largest child's."""
+    """Upper bound on the peak memory in GiB: this process's peak plus the largest child's."""
     own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     child = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
     return round((own + child) / 2**20, 2)
 
 
 def processor_seconds(pid: int) -> float:
-    """Processor time that a process and its living children have taken, where the system tells."""
+    """Processor seconds of a process and its living children, from ``/proc``."""
     tick = os.sysconf("SC_CLK_TCK")
     spent = 0
     for entry in Path("/proc").glob("[0-9]*/stat"):

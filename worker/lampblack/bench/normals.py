@@ -1,4 +1,4 @@
-"""Time from drawing to normal map and to mesh."""
+"""Time from a drawing to its normal map and its mesh."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Live relighting, through the real socket: what the artist's hand feels."""
+"""Latency of live relighting, through the real socket."""
 
 from __future__ import annotations
 
@@ -49,14 +49,14 @@ class _Bench:
         return round(width * scale), round(height * scale)
 
     def show(self, scene: Scene) -> Picture:
-        """Set a scene and wait until its picture is as good as it gets."""
+        """Set a scene and wait until its picture has converged."""
         revision = self.client.set_scene(scene)
         return self.client.picture(120, lambda i: i.converged and i.revision == revision)[1]
 
 
 def bench_relight(picture: Picture, scene: Scene) -> Figures:
-    """Latencies in ms (p50 and p95 of message sent to pixels received), pictures a second,
-    seconds to first light, and what the worker costs at rest.
+    """Latencies in ms (p50 and p95, from sending a message to receiving its pixels), pictures per
+    second, seconds to the first lit picture, and the worker's processor time at rest.
 
     Args:
         picture: (H, W, 4) uint8, painted by the client at 500 px. scene: its materials and
@@ -87,7 +87,7 @@ def bench_relight(picture: Picture, scene: Scene) -> Figures:
 
 @contextmanager
 def _fresh_worker() -> Iterator[tuple[Worker, Client, float]]:
-    """A worker that has cached nothing, a client of it, and the seconds until it was ready."""
+    """A worker with an empty cache, a client of it, and the seconds until it was ready."""
     with TemporaryDirectory() as folder:
         begin = time.perf_counter()
         with (
@@ -100,7 +100,7 @@ def _fresh_worker() -> Iterator[tuple[Worker, Client, float]]:
 
 
 def _new_drawing(bench: _Bench) -> Figures:
-    """A drawing that was never seen; then another, whose normals are waited for."""
+    """Time for a new drawing until its first lit picture; then for another until its normals."""
     client = bench.client
     client.set_scene(bench.scene)
     begin = time.perf_counter()
@@ -134,7 +134,7 @@ def _new_drawing(bench: _Bench) -> Figures:
 
 
 def _idle(bench: _Bench, pid: int) -> Figures:
-    """What a converged worker costs."""
+    """Processor time of a worker at rest."""
     bench.client.wait_for(Status)
     status, _ = bench.client.wait_for(Status, where=lambda status: status.preview == "idle")
     before = processor_seconds(pid)
