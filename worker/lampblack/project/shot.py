@@ -92,12 +92,12 @@ class ProjectShot:
         size = self.canvas.width, self.canvas.height
         if below is None and above is None and camera[:2] + camera[3:5] == (1.0, 0.0, 0.0, 1.0):
             return look_through(lit, camera, size)
-        laid = _premultiplied(lit)
+        layered = _premultiplied(lit)
         if below is not None:
-            laid = _over(laid, _premultiplied(below))
+            layered = _over(layered, _premultiplied(below))
         if above is not None:
-            laid = _over(_premultiplied(above), laid)
-        seen = _straight(look_through(laid, camera, size))
+            layered = _over(_premultiplied(above), layered)
+        seen = _straight(look_through(layered, camera, size))
         return (np.rint(seen * 255) if lit.dtype == np.uint8 else seen).astype(lit.dtype)
 
     def _through(self, number: int) -> Affine:
@@ -146,16 +146,16 @@ def _number(frame: ShotFrame) -> int:
 def _premultiplied(picture: Picture | NDArray[np.float32]) -> NDArray[np.float32]:
     """(H, W, 4) straight alpha, bytes or 0 to 1, to premultiplied 0 to 1."""
     most = 255 if picture.dtype == np.uint8 else 1
-    laid = np.divide(picture, most, dtype=np.float32)
-    laid[..., :3] *= laid[..., 3:]
-    return laid
+    layered = np.divide(picture, most, dtype=np.float32)
+    layered[..., :3] *= layered[..., 3:]
+    return layered
 
 
 def _over(top: NDArray[np.float32], bottom: NDArray[np.float32]) -> NDArray[np.float32]:
     return top + (1 - top[..., 3:]) * bottom
 
 
-def _straight(laid: NDArray[np.float32]) -> NDArray[np.float32]:
-    colour = laid[..., :3] / np.maximum(laid[..., 3:], 1e-6)
-    picture: NDArray[np.float32] = np.concatenate([colour, laid[..., 3:]], axis=2)
+def _straight(layered: NDArray[np.float32]) -> NDArray[np.float32]:
+    colour = layered[..., :3] / np.maximum(layered[..., 3:], 1e-6)
+    picture: NDArray[np.float32] = np.concatenate([colour, layered[..., 3:]], axis=2)
     return np.clip(picture, 0, 1)

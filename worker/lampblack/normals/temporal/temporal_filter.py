@@ -71,9 +71,9 @@ class TemporalFilter:
             (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
             Detail finer than the fine grid stays that of the drawing.
         """
-        laid, place = here.window.lay(self.change(here, neighbours), mask.shape)
+        correction, place = here.window.to_canvas(self.change(here, neighbours), mask.shape)
         inside = mask[place]
-        moved = normals[place][inside] + laid[inside]
+        moved = normals[place][inside] + correction[inside]
         moved[:, 2] = np.maximum(moved[:, 2], 1e-3)  # what is seen cannot face away
         smooth = normals.copy()
         smooth[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)

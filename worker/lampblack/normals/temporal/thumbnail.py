@@ -53,10 +53,10 @@ def make_thumbnail(
     """
     window = window_around(mask)
     inside = mask[..., None].astype(np.float32)
-    seen = window.see(
+    seen = window.to_grid(
         np.dstack([inside, lines[..., None] * inside, albedo * inside]), window.coarse
     )
-    fine = window.see(np.dstack([inside, normals * inside]), window.fine)
+    fine = window.to_grid(np.dstack([inside, normals * inside]), window.fine)
     row, column = ndimage.center_of_mass(seen[0])
     return RegistrationThumbnail(
         name=name,

@@ -35,7 +35,7 @@ class Window:
         """(rows, columns) of the fine grid."""
         return 2 * self.coarse[0], 2 * self.coarse[1]
 
-    def see(self, image: Planes, shape: tuple[int, int]) -> Planes:
+    def to_grid(self, image: Planes, shape: tuple[int, int]) -> Planes:
         """(H, W, C) canvas -> (C, *shape) grid, area-averaged; 0 beyond the canvas."""
         cut = np.zeros((*self.size, image.shape[2]), np.float32)
         on_canvas, in_box = self._overlap(image.shape)
@@ -49,7 +49,9 @@ class Window:
         )
         return np.ascontiguousarray(seen[0].numpy())
 
-    def lay(self, planes: Planes, shape: tuple[int, ...]) -> tuple[Planes, tuple[slice, slice]]:
+    def to_canvas(
+        self, planes: Planes, shape: tuple[int, ...]
+    ) -> tuple[Planes, tuple[slice, slice]]:
         """(C, rows, columns) grid -> (h, w, C) pixels, bilinear, and their rows and columns on
         a canvas of ``shape``."""
         whole = torch.nn.functional.interpolate(
