@@ -1,4 +1,5 @@
-// The conformance program of the C++ decoder, for tests/support/conformance.py and tests/unit/test_plugin_protocol.py.
+// The conformance program of the C++ decoder, for tests/support/conformance.py and
+// tests/unit/test_plugin_protocol.py.
 //
 //   lampblack_conformance CASE...            one line of JSON a case: what the decoder makes of it
 //   lampblack_conformance --encode CASE DIR  decode an accepted case, encode it again, write it to DIR
