@@ -57,7 +57,7 @@ def test_a_data_set_is_the_same_however_often_it_is_interrupted(
         assert np.array_equal(first.normals, second.normals)
 
 
-def test_made_up_creatures_are_the_same_every_time(models: Path, tmp_path: Path) -> None:
+def test_random_creatures_are_the_same_every_time(models: Path, tmp_path: Path) -> None:
     options = replace(OPTIONS, creatures=3)
     assert build_dataset(models, tmp_path / "data", None, options) == 7
     assert len(list((tmp_path / "data" / "creatures").glob("*.npz"))) == 3
@@ -69,7 +69,7 @@ def test_made_up_creatures_are_the_same_every_time(models: Path, tmp_path: Path)
     assert np.linalg.norm(high - low) == pytest.approx(2, abs=1e-4)
 
 
-def test_made_up_creatures_have_the_normals_of_their_surface() -> None:
+def test_random_creatures_have_the_normals_of_their_surface() -> None:
     for seed in range(8):
         model = creature("a", np.random.default_rng(seed))
         corners = model.vertices[model.faces]
@@ -91,10 +91,10 @@ def test_made_up_creatures_have_the_normals_of_their_surface() -> None:
         assert np.median(angle[smooth]) < 1.5
 
 
-def test_clay_is_as_exact_as_its_parts() -> None:
-    clay = ImplicitSurface()
-    clay.cone(np.array([-1.0, 0, 0]), 0.5, np.array([1.0, 0, 0]), 0.5, 0.0)
-    mesh = clay.mesh(48)
+def test_an_implicit_surface_is_as_exact_as_its_parts() -> None:
+    surface = ImplicitSurface()
+    surface.cone(np.array([-1.0, 0, 0]), 0.5, np.array([1.0, 0, 0]), 0.5, 0.0)
+    mesh = surface.mesh(48)
     axis = np.clip(mesh.vertices[:, 0], -1, 1)[:, None] * [1.0, 0, 0]
     outward = (mesh.vertices - axis) / 0.5
     assert np.abs(np.linalg.norm(outward, axis=1) - 1).max() < 1e-4
@@ -104,11 +104,11 @@ def test_clay_is_as_exact_as_its_parts() -> None:
     assert solid.volume == pytest.approx(np.pi / 2 + np.pi / 6, rel=0.01)
 
 
-def test_a_dent_in_clay_is_hollow() -> None:
-    clay = ImplicitSurface()
-    clay.ellipsoid(np.zeros(3), np.ones(3), 0.0)
-    clay.dent(np.array([0, 0, 1.0]), np.full(3, 0.5), 0.05)
-    mesh = clay.mesh(64)
+def test_a_subtracted_ellipsoid_is_hollow() -> None:
+    surface = ImplicitSurface()
+    surface.ellipsoid(np.zeros(3), np.ones(3), 0.0)
+    surface.dent(np.array([0, 0, 1.0]), np.full(3, 0.5), 0.05)
+    mesh = surface.mesh(64)
     inside = np.linalg.norm(mesh.vertices - [0, 0, 1], axis=1) < 0.5 + 1e-3
     inside &= np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 1]) < 0.35
     towards = (np.array([0, 0, 1]) - mesh.vertices[inside]) / 0.5
@@ -116,7 +116,7 @@ def test_a_dent_in_clay_is_hollow() -> None:
     assert np.abs(towards - mesh.normals[inside]).max() < 0.02
 
 
-def test_a_turned_cylinder_has_a_wall() -> None:
+def test_a_cylinder_of_the_lathe_has_a_wall() -> None:
     mesh = lathe(np.array([[1.0, 0.5], [1.0, -0.5]]), 0.1)
     solid = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
     assert solid.is_watertight

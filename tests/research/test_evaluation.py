@@ -47,7 +47,7 @@ def test_means_leave_out_drawings_without_hollows() -> None:
     assert np.isnan(means(rows[1:])["concave"])
 
 
-def test_tuned_bevel_makes_a_disk_round_and_regions_puff_up() -> None:
+def test_tuned_bevel_makes_a_disk_round_and_inflates_regions() -> None:
     mask, truth = ball(300, 120.0)
     tuned = angles(laigter_normals(mask, None), truth)[mask].mean()
     assert tuned < 12 < angles(laigter_normals(mask), truth)[mask].mean()
@@ -70,7 +70,7 @@ def test_bootstrap_tells_a_sure_gain_from_a_chance() -> None:
     assert low < 0 < high
 
 
-def test_every_peer_is_measured_on_the_same_drawings(tmp_path: Path) -> None:
+def test_every_method_is_measured_on_the_same_drawings(tmp_path: Path) -> None:
     trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
     table = evaluate(tmp_path, None, dict(PEERS), views=2, character_px=120)
     assert set(table) == set(PEERS)

@@ -50,7 +50,7 @@ def test_steps_are_of_adams_size_and_go_down(shape: tuple[int, ...]) -> None:
 
 
 @pytest.mark.parametrize("architecture", ["figure-net", "dilated-unet", "strided-unet"])
-def test_every_weight_has_one_optimiser(architecture: str) -> None:
+def test_every_weight_has_one_optimizer(architecture: str) -> None:
     network = build_network(architecture)
     stepped = [
         id(weight)
@@ -79,7 +79,7 @@ def stepped(network: nn.Module, optimizers: list[torch.optim.Optimizer]) -> None
         optimizer.step()
 
 
-def test_a_run_that_goes_on_takes_the_very_steps_it_would_have_taken(tmp_path: Path) -> None:
+def test_a_restored_run_takes_the_same_steps(tmp_path: Path) -> None:
     torch.manual_seed(0)
     network, average = Small(), Small()
     optimizers = network.optimizers()

@@ -22,7 +22,6 @@ from lampblack.normals.card import NetworkCard, load_network, save_network
 from lampblack.normals.character import LUMO
 from lampblack.normals.networks import build_network
 from lampblack_research.dataset.build import DatasetOptions, build_dataset
-from lampblack_research.dataset.models import find_models, load_model
 from lampblack_research.dataset.triple import Triple
 from lampblack_research.training.character_batches import (
     CharacterBatches,
@@ -37,43 +36,15 @@ from lampblack_research.training.tile_batches import normal_loss, view_of
 from lampblack_research.training.train import TrainingOptions, train
 
 
-@pytest.fixture
-def models(tmp_path: Path) -> Path:
-    folder = tmp_path / "models"
-    folder.mkdir()
-    trimesh.creation.icosphere(subdivisions=3).export(folder / "ball.ply")
-    trimesh.creation.capsule(radius=0.4).export(folder / "pill.obj")
-    return folder
-
-
-def test_low_poly_models_are_smooth_but_keep_their_creases(tmp_path: Path) -> None:
-    trimesh.creation.icosphere(subdivisions=2).export(tmp_path / "ball.ply")
-    trimesh.creation.box().export(tmp_path / "box.ply")
-    smooth = load_model(tmp_path / "ball.ply")
-    corners = smooth.vertices[smooth.faces]
-    corners /= np.linalg.norm(corners, axis=2, keepdims=True)
-    assert np.einsum("fcd,fcd->fc", corners, smooth.corner_normals).min() > 0.999
-    box = load_model(tmp_path / "box.ply")
-    assert np.allclose(np.abs(box.corner_normals).max(axis=2), 1, atol=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("name", "content"),
-    [("a.ply", b"not a mesh"), ("b.npz", b"PK\x03\x04"), ("c.obj", b""), ("d.glb", b"glTF")],
-)
-def test_broken_meshes_are_refused(tmp_path: Path, name: str, content: bytes) -> None:
-    (tmp_path / name).write_bytes(content)
-    with pytest.raises(LampblackError):
-        load_model(tmp_path / name)
-    with pytest.raises(LampblackError):
-        find_models(tmp_path / "nowhere")
-
-
-@pytest.fixture
-def data(models: Path, tmp_path: Path) -> Path:
-    folder = tmp_path / "data"
-    options = DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
-    build_dataset(models, folder, None, options)
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A data set of two models, which no test changes."""
+    models, folder = tmp_path_factory.mktemp("models"), tmp_path_factory.mktemp("data")
+    trimesh.creation.icosphere(subdivisions=3).export(models / "ball.ply")
+    trimesh.creation.capsule(radius=0.4).export(models / "pill.obj")
+    build_dataset(
+        models, folder, None, DatasetOptions(views=2, resolution=96, hands=2, freestyle=0)
+    )
     return folder
 
 
@@ -123,7 +94,7 @@ def test_angles_are_angles() -> None:
     assert angles(a, a).max() < 2e-3
 
 
-def test_canvases_of_every_side_take_turns_and_large_ones_make_smaller_batches(data: Path) -> None:
+def test_batches_of_large_canvases_are_smaller(data: Path) -> None:
     seen = {}
     with CharacterBatches(data, (64, 384), seed=0, capacity=8) as batches:
         for _ in range(40):
@@ -162,7 +133,7 @@ class Enough(Exception):
     """Ends a run from its report."""
 
 
-def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> None:
+def test_training_continues_where_it_was_stopped(data: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     steps: list[int] = []
 
@@ -185,7 +156,7 @@ def test_training_goes_on_where_it_was_stopped(data: Path, tmp_path: Path) -> No
         train(data, run, other, TrainingOptions())
 
 
-def test_a_run_from_nothing_begins_on_small_canvases(
+def test_a_run_without_initial_weights_starts_on_small_canvases(
     data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     seconds = itertools.count()
@@ -215,7 +186,7 @@ def test_a_run_from_nothing_begins_on_small_canvases(
     assert min(widest) >= 160
 
 
-def test_the_course_of_a_run_can_be_looked_at(
+def test_a_run_writes_its_log_its_curve_and_examples(
     data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("lampblack_research.training.train.LOG_STEPS", 2)

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from lampblack.drawing import save_picture
 from lampblack.normals.temporal.flow import dense_flow
 from lampblack.normals.temporal.neighbours import neighbour_keys
 from lampblack.normals.temporal.registration import places_in, rigid_registration
@@ -18,8 +14,6 @@ from lampblack.normals.temporal.rigid import Motion, rigid_motion
 from lampblack.normals.temporal.temporal_filter import NO_NEIGHBOURS, Neighbours, TemporalFilter
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from lampblack_research.evaluation.flicker import FlickerMeter
-from support.command_line import Run
-from support.drawings import draw_ball
 
 Image = NDArray[np.float32]
 SIZE = 200
@@ -238,16 +232,3 @@ def test_flicker_of_fewer_than_two_drawings_is_unknown() -> None:
     meter = FlickerMeter(TemporalFilter())
     meter.add(shot(0.0, 1)[0][2])
     assert np.isnan([meter.flicker.rigid, meter.flicker.local, meter.flicker.jitter]).all()
-
-
-def test_command_measures_drawings_and_skips_holds_and_blanks(run: Run, tmp_path: Path) -> None:
-    ball = draw_ball(120)
-    for number, picture in enumerate([ball, ball, np.zeros_like(ball), np.roll(ball, 3, axis=1)]):
-        save_picture(tmp_path / f"ball.{number:04d}.png", picture)
-    outcome = run("flicker", tmp_path, "--json")
-    assert outcome.code == 0
-    rows = json.loads(outcome.out)
-    assert rows["predicted"]["rigid"] < 1.5
-    assert rows["steadied"]["rigid"] < 1.5
-    assert rows["predicted"]["jitter"] is None
-    assert run("flicker").code == 1
