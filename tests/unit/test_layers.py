@@ -1,4 +1,4 @@
-"""The map in CONTRIBUTING.md: its first table is the order in which stations import each other."""
+"""The map in CONTRIBUTING.md: its tables are the order in which stations import each other."""
 
 from __future__ import annotations
 
@@ -10,12 +10,14 @@ from pathlib import Path
 from support.paths import ROOT
 
 WORKER = ROOT / "worker" / "lampblack"
+PLUGIN = ROOT / "pencil2d_plugin"
 
 
-def _stations() -> list[str]:
-    """Folders and files of the worker, as the table lists them."""
-    table = (ROOT / "CONTRIBUTING.md").read_text().partition("\n\n|")[2].partition("\n\n")[0]
-    first_cells = (row.split("|")[1] for row in f"|{table}".splitlines()[2:])
+def _order(heading: str) -> list[str]:
+    """Folders and files in the order of the table whose first column has this heading."""
+    text = (ROOT / "CONTRIBUTING.md").read_text()
+    table = text.partition(f"| {heading} |")[2].partition("\n\n")[0]
+    first_cells = (row.split("|")[1] for row in table.splitlines()[2:])
     return [name for cell in first_cells for name in re.findall(r"`(\w+)(?:/|\.py)`", cell)]
 
 
@@ -40,11 +42,11 @@ def _files() -> Iterator[tuple[str, Path]]:
 
 
 def test_the_map_names_every_station_once() -> None:
-    assert sorted(_stations()) == sorted({station for station, _ in _files()})
+    assert sorted(_order("station")) == sorted({station for station, _ in _files()})
 
 
 def test_stations_import_only_those_above_them_on_the_map() -> None:
-    order = _stations()
+    order = _order("station")
     upward = [
         f"{path.relative_to(ROOT)} imports {'.'.join(module)}"
         for station, path in _files()
@@ -63,3 +65,16 @@ def test_only_the_renderer_imports_blender() -> None:
 
 def test_the_worker_does_not_import_research() -> None:
     assert not [path for _, path in _files() for m in _imports(path) if "research" in m[0]]
+
+
+def test_libraries_of_the_plugin_include_only_those_above_them_on_the_map() -> None:
+    order = _order("library")
+    files = [path for path in PLUGIN.glob("*/**/*") if path.suffix in (".h", ".cpp")]
+    assert sorted(order) == sorted({path.relative_to(PLUGIN).parts[0] for path in files})
+    upward = [
+        f"{path.relative_to(ROOT)} includes {name}/"
+        for path in files
+        for name in re.findall(r'#include "(\w+)/', path.read_text(encoding="utf-8"))
+        if name in order[order.index(path.relative_to(PLUGIN).parts[0]) + 1 :]
+    ]
+    assert upward == []

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from lampblack.normals.card import NetworkCard, load_network, shipped_weights
 from lampblack.normals.character import MARGIN as CANVAS_MARGIN
-from lampblack.normals.character import canvas_for, canvases, lay
+from lampblack.normals.character import canvas_for, canvases, place
 from lampblack.normals.networks import CharacterNet, DilatedUNet, StridedUNet, build_network
 from lampblack.normals.networks.dilated_unet import DILATIONS
 from lampblack.normals.predict import NormalPredictor
@@ -117,9 +117,9 @@ def test_a_character_lies_in_the_middle_of_the_canvas_it_fills_best(shape: tuple
     rows, columns = canvas.inner
     for side, size in zip((rows, columns), canvas.shape, strict=True):
         assert side.start == size - side.stop >= CANVAS_MARGIN - 1
-    laid = lay(np.ones((*shape, 1), np.float32), canvas)
-    assert laid[canvas.inner].min() > 0.99
-    assert laid.sum() == pytest.approx(laid[canvas.inner].sum())
+    placed = place(np.ones((*shape, 1), np.float32), canvas)
+    assert placed[canvas.inner].min() > 0.99
+    assert placed.sum() == pytest.approx(placed[canvas.inner].sum())
 
 
 def test_the_character_network_starts_as_lumo() -> None:

@@ -64,12 +64,12 @@ def canvas_for(shape: tuple[int, ...], side: int, zoom: float = 1.0) -> Canvas:
     return Canvas(best, (rows, columns))
 
 
-def lay(image: Plane, canvas: Canvas) -> Plane:
+def place(image: Plane, canvas: Canvas) -> Plane:
     """(H, W, C) box -> (canvas rows, canvas columns, C), zero around it. Averages when it
     shrinks, interpolates when it enlarges."""
-    laid = np.zeros((*canvas.shape, image.shape[2]), np.float32)
-    laid[canvas.inner] = resize(image, canvas.size)
-    return laid
+    placed = np.zeros((*canvas.shape, image.shape[2]), np.float32)
+    placed[canvas.inner] = resize(image, canvas.size)
+    return placed
 
 
 def resize(image: Plane, size: tuple[int, ...]) -> Plane:

@@ -15,7 +15,7 @@ from .character import (
     canvas_for,
     coarse_maps,
     extend_outside,
-    lay,
+    place,
     resize,
     shape_maps,
 )
@@ -86,11 +86,11 @@ def character_input(
     lines: NDArray[np.float32], mask: NDArray[np.bool_], canvas: Canvas
 ) -> tuple[torch.Tensor, torch.Tensor, NDArray[np.bool_]]:
     """The fine (1, 2, h, w) and coarse (1, 10, h/4, w/4) input tensors, and the (h, w) mask."""
-    laid = lay(np.stack([lines * mask, mask], axis=2).astype(np.float32), canvas)
-    share = laid[..., 1]
+    placed = place(np.stack([lines * mask, mask], axis=2).astype(np.float32), canvas)
+    share = placed[..., 1]
     small = share > 0.5
     if not small.any():
         small = share >= share.max()
-    ink = np.clip(laid[..., 0] / np.maximum(share, 0.25), 0, 1) * small
+    ink = np.clip(placed[..., 0] / np.maximum(share, 0.25), 0, 1) * small
     fine = torch.from_numpy(np.stack([ink, small.astype(np.float32)]))[None]
     return fine, torch.from_numpy(coarse_maps(shape_maps(small), ink))[None], small

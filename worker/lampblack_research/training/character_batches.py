@@ -18,7 +18,7 @@ from lampblack.normals.character import (
     SIDEWAYS,
     canvas_for,
     coarse_maps,
-    lay,
+    place,
     resize,
     shape_maps,
 )
@@ -72,7 +72,7 @@ def place_on_canvas(
     picture = stretched(picture, random_stretch(rng))
     picture = picture[_box(picture[..., -3] > 0.5)]
     canvas = canvas_for(picture.shape[:2], side, float(rng.uniform(0.85, 1)))
-    placed = lay(picture, canvas)
+    placed = place(picture, canvas)
     count = len(triple.drawings)
     normals, inks, rest = np.split(placed, [3, 3 + count], axis=2)
     share = rest[..., 1:2]
