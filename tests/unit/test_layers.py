@@ -7,10 +7,15 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
 from support.paths import ROOT
 
-WORKER = ROOT / "worker" / "lampblack"
+WORKER = ROOT / "worker"
 PLUGIN = ROOT / "pencil2d_plugin"
+HEADINGS = {"lampblack": "station", "lampblack_research": "stage"}
+"""By package, the heading of its table."""
+
+both = pytest.mark.parametrize("package", HEADINGS)
 
 
 def _order(heading: str) -> list[str]:
@@ -23,7 +28,7 @@ def _order(heading: str) -> list[str]:
 
 def _imports(path: Path) -> Iterator[tuple[str, ...]]:
     """Every module imported anywhere in a file, in functions and for type checkers too."""
-    package = path.relative_to(WORKER.parent).parent.parts
+    package = path.relative_to(WORKER).parent.parts
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             yield from (tuple(name.name.split(".")) for name in node.names)
@@ -33,38 +38,41 @@ def _imports(path: Path) -> Iterator[tuple[str, ...]]:
             yield from ((*filter(None, module), name.name) for name in node.names)
 
 
-def _files() -> Iterator[tuple[str, Path]]:
-    """Each file with its station; the package's own ``__init__`` and ``__main__`` have none."""
-    for path in sorted(WORKER.rglob("*.py")):
-        station = path.relative_to(WORKER).with_suffix("").parts[0]
+def _files(package: str) -> Iterator[tuple[str, Path]]:
+    """Each file with its station; a package's own ``__init__`` and ``__main__`` have none."""
+    for path in sorted((WORKER / package).rglob("*.py")):
+        station = path.relative_to(WORKER / package).with_suffix("").parts[0]
         if not station.startswith("__"):
             yield station, path
 
 
-def test_the_map_names_every_station_once() -> None:
-    assert sorted(_order("station")) == sorted({station for station, _ in _files()})
+@both
+def test_the_map_names_every_station_once(package: str) -> None:
+    assert sorted(_order(HEADINGS[package])) == sorted({station for station, _ in _files(package)})
 
 
-def test_stations_import_only_those_above_them_on_the_map() -> None:
-    order = _order("station")
+@both
+def test_stations_import_only_those_above_them_on_the_map(package: str) -> None:
+    order = _order(HEADINGS[package])
     upward = [
         f"{path.relative_to(ROOT)} imports {'.'.join(module)}"
-        for station, path in _files()
+        for station, path in _files(package)
         for module in _imports(path)
-        if module[0] == "lampblack" and {*module[1:2]} & {*order[order.index(station) + 1 :]}
+        if module[0] == package and {*module[1:2]} & {*order[order.index(station) + 1 :]}
     ]
     assert upward == []
 
 
-def test_only_the_renderer_imports_blender() -> None:
+@both
+def test_only_the_renderer_imports_blender(package: str) -> None:
     """``bpy`` runs in a process of its own: nothing else may load it."""
-    assert {station for station, path in _files() for m in _imports(path) if m[0] == "bpy"} == {
-        "render"
-    }
+    importing = {station for station, path in _files(package) for m in _imports(path) if "bpy" in m}
+    assert importing == {"render"}
 
 
 def test_the_worker_does_not_import_research() -> None:
-    assert not [path for _, path in _files() for m in _imports(path) if "research" in m[0]]
+    imported = {module[0] for _, path in _files("lampblack") for module in _imports(path)}
+    assert "lampblack_research" not in imported
 
 
 def test_libraries_of_the_plugin_include_only_those_above_them_on_the_map() -> None:
