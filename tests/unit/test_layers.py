@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -62,6 +63,16 @@ def test_stations_import_only_those_above_them_on_the_map(package: str) -> None:
         if module[0] == package and {*module[1:2]} & {*order[order.index(station) + 1 :]}
     ]
     assert upward == []
+
+
+@both
+def test_modules_do_not_import_each_other_in_a_circle(package: str) -> None:
+    modules = {path.relative_to(WORKER).with_suffix("").parts: path for _, path in _files(package)}
+    graph = {
+        module: {part for name in _imports(path) for part in (name, name[:-1]) if part in modules}
+        for module, path in modules.items()
+    }
+    TopologicalSorter(graph).prepare()  # raises CycleError, which names the circle
 
 
 @both
