@@ -9,7 +9,7 @@ from strokes import Points, Sheet, curve, place
 
 def draw_boot(sheet: Sheet, ankle: tuple[float, float], side: int, turn: float) -> None:
     def part(knots: list[tuple[float, float]], closed: bool = True) -> Points:
-        # Drawn for the figure's boot on the page's right, toe to the right.
+        # Drawn for the character's boot on the page's right, toe to the right.
         points = place(curve([(side * x, y) for x, y in knots], closed), ankle, side * turn)
         return points if side > 0 else points[::-1]
 
@@ -110,7 +110,7 @@ def draw_hat(sheet: Sheet, pose: Pose) -> None:
 
 
 def draw_lantern(sheet: Sheet, hand: Points, pose: Pose) -> None:
-    # Metal keeps its shape when the figure squashes.
+    # Metal keeps its shape when the character squashes.
     rigid = (1 / pose.stretch[0], 1 / pose.stretch[1])
     grip = hand + np.array([-18, -14])
 

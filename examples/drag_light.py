@@ -31,7 +31,7 @@ HERTZ = 60
 
 
 def dragged(scene: Scene, share: float) -> Scene:
-    """The scene with its first light a ``share`` of the way round the figure."""
+    """The scene with its first light a ``share`` of the way round the character."""
     angle = 2 * math.pi * share - 2.2
     light = scene.lights[0]
     x, y = 500 + 430 * math.cos(angle), 430 + 330 * math.sin(angle)

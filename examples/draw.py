@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pose as figure
+import pose as character
 from lamplighter import draw_lamplighter
 from pencil2d import write_project
 from PIL import Image
@@ -58,25 +58,25 @@ HOP = (
 )  # fmt: skip
 
 MATERIALS = {
-    figure.FUR: Material(),
-    figure.CREAM: Material(glossy=True, gloss=0.1, roughness=0.5),
-    figure.SCARF: Material(),
-    figure.STRIPE: Material(),
-    figure.BRASS: Material(glossy=True, gloss=0.35, roughness=0.2),
+    character.FUR: Material(),
+    character.CREAM: Material(glossy=True, gloss=0.1, roughness=0.5),
+    character.SCARF: Material(),
+    character.STRIPE: Material(),
+    character.BRASS: Material(glossy=True, gloss=0.35, roughness=0.2),
     # The lantern shines of itself: left as drawn.
-    figure.GLASS: Material(diffuse=False),
-    figure.FLAME: Material(diffuse=False),
-    figure.BOOTS: Material(glossy=True, gloss=0.14, roughness=0.2),
-    figure.SOLES: Material(),
-    figure.HAT: Material(),
-    figure.PINK: Material(),
-    figure.WHITE: Material(glossy=True, gloss=0.2, roughness=0.15),
-    figure.BLACK: Material(diffuse=False, glossy=True, gloss=0.8, roughness=0.12),
+    character.GLASS: Material(diffuse=False),
+    character.FLAME: Material(diffuse=False),
+    character.BOOTS: Material(glossy=True, gloss=0.14, roughness=0.2),
+    character.SOLES: Material(),
+    character.HAT: Material(),
+    character.PINK: Material(),
+    character.WHITE: Material(glossy=True, gloss=0.2, roughness=0.15),
+    character.BLACK: Material(diffuse=False, glossy=True, gloss=0.8, roughness=0.12),
 }
 
 
 def draw_still() -> Image.Image:
-    """The figure at rest, 1000 x 1000."""
+    """The character at rest, 1000 x 1000."""
     return draw_lamplighter(STILL_SIZE, STILL_FLOOR, scale=0.96, line=1.0, pose=STAND).picture()
 
 
@@ -117,7 +117,7 @@ def main() -> None:
         picture.save(frames / f"lamplighter.{number:04d}.png", optimize=True)
     project = here / "lamplighter.pclx"
     write_project(project, [np.asarray(p.convert("RGBA")) for p in hop], 2, 12, "Lamplighter")
-    # The soles reach a little below the line on which the figure stands.
+    # The soles reach a little below the line on which the character stands.
     still = light(STILL_SIZE, STILL_FLOOR[1] + 6)
     (here / "character.scene.json").write_bytes(encode_scene(still))
     moving = encode_scene(replace(light(FRAME_SIZE, FRAME_FLOOR[1] + 4), quality="low"))

@@ -1,7 +1,7 @@
 """The lamplighter: a stout, furry keeper of lanterns, drawn part over part from back to front.
 
-Figure units are pixels of a 1000 pixel canvas; the origin is on the floor beneath the figure,
-x right, y down, so all of the figure has y < 0.
+Character units are pixels of a 1000 pixel canvas; the origin is on the floor beneath the character,
+x right, y down, so all of the character has y < 0.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from strokes import Points, Sheet, bezier, curve, ellipse, place
 def draw_lamplighter(
     size: tuple[int, int], floor: tuple[float, float], scale: float, line: float, pose: Pose
 ) -> Sheet:
-    """Draw the figure standing on canvas point ``floor``; ``line`` scales the ink's width."""
+    """Draw the character standing on canvas point ``floor``; ``line`` scales the ink's width."""
     sheet = Sheet(size, COLOURS, lambda p: pose.bend(p) * scale + np.asarray(floor), scale, line)
     _tail(sheet, pose)
     draw_scarf_end(sheet, pose, at=(160, -440), turn=-24 + pose.scarf, length=225)

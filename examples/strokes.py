@@ -1,7 +1,7 @@
 """Splines, brush strokes and flat fills: the pen and paint with which the examples are drawn.
 
 Everything is painted without anti-aliasing on a large sheet of colour indices, then averaged
-down with premultiplied alpha: a flat colour stays exactly flat, and a pixel at the figure's edge
+down with premultiplied alpha: a flat colour stays exactly flat, and a pixel at the character's edge
 keeps the straight colour of its line.
 """
 
@@ -90,13 +90,13 @@ def bezier(start: Points, control: Points, end: Points) -> Points:
 
 
 class Sheet:
-    """A transparent sheet to draw on in the figure's units.
+    """A transparent sheet to draw on in the character's units.
 
     Args:
         size: (width, height) of the finished picture, pixels.
         colours: flat colours ``#rrggbb``; the first is the ink.
-        to_canvas: from figure units to pixels of the finished picture.
-        scale: pixels for every figure unit, for parts that keep their girth.
+        to_canvas: from character units to pixels of the finished picture.
+        scale: pixels for every character unit, for parts that keep their girth.
         ink_scale: pixels of line width for every unit of width asked for.
     """
 
