@@ -38,8 +38,8 @@ test: check
 	@scripts/environment.sh test
 	cmake --preset dev && cmake --build --preset dev
 	LAMPBLACK_PYTHON=$(PYTHON_OF_WORKER) ctest --preset dev
-	cmake --preset asan && cmake --build --preset asan --target codec_vectors codec_fuzz planes
-	ctest --preset asan -R '^(codec_vectors|codec_fuzz|planes)$$'
+	cmake --preset asan && cmake --build --preset asan --target protocol_codec_vectors protocol_codec_fuzz protocol_planes
+	ctest --preset asan -R ^protocol_
 	$(BIN)/pytest -m "not slow"
 
 test-newest:

@@ -1,6 +1,7 @@
 // The way in: Qt loads this into Pencil2D when QT_QPA_GENERIC_PLUGINS names "lampblack".
 #include "host/host.h"
 #include "plugin/studio.h"
+#include "worker/worker_session.h"
 
 #include <QApplication>
 #include <QEvent>
@@ -31,7 +32,7 @@ private:
         Host* host = createHost(qApp);
         if (host == nullptr)
             return;
-        auto* studio = new Studio(*host, qApp);
+        auto* studio = new Studio(*host, std::make_unique<WorkerSession>(), qApp);
         // Widgets of ours die with the window: what binds to them must be gone before.
         connect(qApp, &QCoreApplication::aboutToQuit, this,
                 [host, studio]

@@ -1,15 +1,14 @@
 #include "plugin/studio.h"
 
 #include "scene/timeline.h"
-#include "worker/worker_session.h"
 
 #include <algorithm>
 
 namespace lampblack
 {
 
-Studio::Studio(Host& host, QObject* parent)
-    : QObject(parent), mHost(host), mWorker(std::make_unique<WorkerSession>()),
+Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
+    : QObject(parent), mHost(host), mWorker(std::move(worker)),
       mTool(std::make_unique<LampTool>(host, *mWorker, mDocument)),
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
       mAround(std::make_unique<Surroundings>(host, *mFeed, mDocument)),

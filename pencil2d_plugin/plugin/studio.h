@@ -33,7 +33,7 @@ class Studio : public QObject
         QVariantList lightPlaces READ lightPlaces) ///< [x, y] of each light as it is now, canvas pixels
 
 public:
-    explicit Studio(Host& host, QObject* parent = nullptr);
+    Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent = nullptr);
     ~Studio() override;
 
     qulonglong sentRevision() const { return mSent; }

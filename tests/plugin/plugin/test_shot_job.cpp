@@ -2,7 +2,8 @@
 #include "plugin/backup.h"
 #include "plugin/project_scene.h"
 #include "plugin/shot_job.h"
-#include "tool/fakes.h"
+#include "support/fake_host.h"
+#include "support/fake_worker.h"
 
 #include <QMessageBox>
 #include <QPushButton>
@@ -16,82 +17,16 @@ namespace
 
 const QString Character = QStringLiteral("Line");
 
-/// Exports at once, and takes layers in at once.
-class ShotHost : public FakeHost
-{
-public:
-    explicit ShotHost(const QString& project) : mProject(project) {}
-
-    QString projectPath() const override { return mProject; }
-    void requestFrames(int first, int last, const QStringList& layers) override
-    {
-        mAsked = layers;
-        for (int frame = first; frame <= last; ++frame)
-        {
-            if (mBroken.contains(frame))
-                Q_EMIT exportFailed(frame, {QStringLiteral("Frame %1 is broken.").arg(frame), {}, {}});
-            else
-                Q_EMIT frameExported({frame, QImage(4, 4, QImage::Format_RGBA8888), {}, layers});
-        }
-    }
-    void deliverLayer(const QString& name, const QMap<int, QString>& pictures) override
-    {
-        mDelivered = pictures;
-        if (mLayers.first().name != name)
-            mLayers.prepend({name, Layer::Kind::Bitmap, true});
-        Q_EMIT layersChanged();
-        Q_EMIT layerDelivered(name);
-    }
-    void hideLayers(const QStringList& names) override
-    {
-        for (Layer& layer : mLayers)
-            layer.visible = layer.visible && !names.contains(layer.name);
-    }
-    bool saveProject() override
-    {
-        ++mSaved;
-        return true;
-    }
-
-    QString mProject;
-    QStringList mAsked;
-    QVector<int> mBroken;
-    QMap<int, QString> mDelivered;
-    int mSaved = 0;
-};
-
-class ShotWorker : public FakeWorker
-{
-public:
-    quint64 render(const QString& frames, const QString& output, Quality, bool) override
-    {
-        mFrames = frames;
-        mOutput = output;
-        return ++mJob;
-    }
-    void cancelRender(quint64) override { ++mCancelled; }
-
-    void finish(const QVector<int>& frames)
-    {
-        for (const int frame : frames)
-        {
-            QFile file(QString(mOutput).replace(QStringLiteral("%04d"), QStringLiteral("000%1").arg(frame)));
-            QVERIFY(file.open(QFile::WriteOnly));
-            Q_EMIT renderFrameDone(mJob, frame, file.fileName());
-        }
-    }
-    void end() { Q_EMIT renderDone(mJob, QStringLiteral("finished"), 0, 0, 0); }
-
-    QString mFrames;
-    QString mOutput;
-    quint64 mJob = 0;
-    int mCancelled = 0;
-};
-
+/// A project of eight frames whose drawings are exported at once.
 struct Shot
 {
-    Shot() : host(folder.filePath(QStringLiteral("walk.pclx")))
+    Shot()
     {
+        host.mProject = folder.filePath(QStringLiteral("walk.pclx"));
+        host.mDraw = [this](int frame, const QStringList&)
+        {
+            return broken.contains(frame) ? QImage() : QImage(4, 4, QImage::Format_RGBA8888);
+        };
         QFile project(host.mProject);
         if (project.open(QFile::WriteOnly))
             project.write("as it was");
@@ -99,8 +34,9 @@ struct Shot
     }
 
     QTemporaryDir folder;
-    ShotHost host;
-    ShotWorker worker;
+    QVector<int> broken; ///< frames that cannot be exported
+    FakeHost host;
+    FakeWorker worker;
     SceneDocument document;
     FrameFeed feed{host, worker, document};
     LitLayer layer{host, document};
@@ -121,8 +57,8 @@ private Q_SLOTS:
         Shot shot;
         shot.job.render({1, 8}, true);
         QCOMPARE(shot.worker.mFrames, QStringLiteral("1-8"));
-        shot.worker.finish({1, 2, 3, 4, 5, 6, 7, 8});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         QVERIFY(shot.problem.isEmpty());
         QCOMPARE(shot.host.mDelivered.keys(), QList<int>({1, 2, 3, 4, 5, 6, 7, 8}));
@@ -142,13 +78,13 @@ private Q_SLOTS:
     {
         Shot shot;
         shot.job.render({1, 8}, false);
-        shot.worker.finish({1, 2, 3, 4, 5, 6, 7, 8});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         shot.job.render({3, 3}, true);
         QCOMPARE(shot.worker.mFrames, QStringLiteral("3"));
-        shot.worker.finish({3});
-        shot.worker.end();
+        shot.worker.finishFrames({3});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 2);
         QCOMPARE(shot.host.mDelivered.size(), 8);
     }
@@ -157,8 +93,8 @@ private Q_SLOTS:
     {
         Shot shot;
         shot.job.render({3, 4}, true);
-        shot.worker.finish({3, 4});
-        shot.worker.end();
+        shot.worker.finishFrames({3, 4});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         QCOMPARE(shot.host.mDelivered.keys(), QList<int>({3, 4}));
         for (const Layer& layer : shot.host.mLayers)
@@ -169,14 +105,14 @@ private Q_SLOTS:
     {
         Shot shot;
         shot.job.render({1, 8}, false);
-        shot.worker.finish({1, 2, 3});
+        shot.worker.finishFrames({1, 2, 3});
         shot.job.cancel();
         QCOMPARE(shot.worker.mCancelled, 1);
         QVERIFY(shot.host.mDelivered.isEmpty());
         Q_EMIT shot.host.drawingChanged(2);
         shot.job.render({1, 8}, false);
         QCOMPARE(shot.worker.mFrames, QStringLiteral("2,4-8"));
-        shot.worker.finish({4});
+        shot.worker.finishFrames({4});
         shot.job.cancel();
 
         Scene scene = shot.document.scene();
@@ -191,7 +127,7 @@ private Q_SLOTS:
         Shot shot;
         shot.job.render({1, 4}, false);
         Q_EMIT shot.host.drawingChanged(2);
-        shot.worker.finish({1, 2});
+        shot.worker.finishFrames({1, 2});
         shot.job.cancel();
         shot.job.render({1, 4}, false);
         QCOMPARE(shot.worker.mFrames, QStringLiteral("2-4"));
@@ -200,11 +136,11 @@ private Q_SLOTS:
     void missingFramesAreNamed()
     {
         Shot shot;
-        shot.host.mBroken = {5};
+        shot.broken = {5};
         shot.job.render({1, 6}, false);
         Q_EMIT shot.worker.problem({QStringLiteral("No light."), {}, QStringLiteral("frame 2")});
-        shot.worker.finish({1, 3, 4, 6});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 3, 4, 6});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         QCOMPARE(shot.problem.size(), 1);
         const auto error = shot.problem.first().first().value<UserError>();
@@ -219,8 +155,8 @@ private Q_SLOTS:
         Shot shot;
         shot.host.mLayers.append({QStringLiteral("Lit"), Layer::Kind::Bitmap, true});
         shot.job.render({1, 2}, false);
-        shot.worker.finish({1, 2});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 2});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         QCOMPARE(shot.problem.size(), 1);
         QVERIFY(shot.host.mDelivered.isEmpty());
@@ -231,8 +167,8 @@ private Q_SLOTS:
         Shot shot;
         QVERIFY(QDir().mkpath(backupOf(shot.host.mProject) + QStringLiteral("/in the way")));
         shot.job.render({1, 2}, false);
-        shot.worker.finish({1, 2});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 2});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         QCOMPARE(shot.problem.size(), 1);
         QVERIFY(shot.host.mDelivered.isEmpty());
@@ -242,8 +178,8 @@ private Q_SLOTS:
     {
         Shot shot;
         shot.job.render({1, 2}, false);
-        shot.worker.finish({1, 2});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 2});
+        shot.worker.endJob();
         shot.host.mProject = shot.folder.filePath(QStringLiteral("other.pclx"));
         Q_EMIT shot.host.projectOpened(shot.host.mProject);
         QCOMPARE(shot.ended.size(), 1);
@@ -273,8 +209,8 @@ private Q_SLOTS:
         const ProjectScene project(shot.host, shot.document, shot.layer);
         shot.host.mWindow.show();
         shot.job.render({1, 8}, false);
-        shot.worker.finish({1, 2, 3, 4, 5, 6, 7, 8});
-        shot.worker.end();
+        shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
         for (const auto answer : {QMessageBox::Cancel, QMessageBox::Save})
         {

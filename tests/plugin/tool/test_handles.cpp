@@ -1,6 +1,8 @@
 // Handles stand where their lights are, keep their size at every zoom, and are hit where they show.
-#include "fakes.h"
+#include "support/scenes.h"
 #include "tool/canvas/handles.h"
+
+#include <QtTest>
 
 using namespace lampblack;
 
@@ -123,4 +125,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(HandlesTest)
-#include "tool_handles_test.moc"
+#include "test_handles.moc"

@@ -204,4 +204,4 @@ void SceneJson::depth()
 }
 
 QTEST_GUILESS_MAIN(SceneJson)
-#include "scene_json.moc"
+#include "test_json.moc"

@@ -162,4 +162,4 @@ void SceneSidecar::unwritableIsToldOf()
 }
 
 QTEST_GUILESS_MAIN(SceneSidecar)
-#include "scene_sidecar.moc"
+#include "test_sidecar.moc"

@@ -1,5 +1,7 @@
 // Mouse, pen and wheel on the canvas become edits, one undo step a gesture.
-#include "fakes.h"
+#include "support/fake_host.h"
+#include "support/mouse.h"
+#include "support/scenes.h"
 #include "tool/canvas/canvas_input.h"
 #include "tool/canvas/canvas_overlay.h"
 
@@ -71,7 +73,7 @@ private Q_SLOTS:
     void aDragMovesTheLightInOneStep()
     {
         QFETCH(QTransform, view);
-        mHost->look(view);
+        mHost->setView(view);
         const QPointF from = place();
         const QPointF to = from + QPointF(40, 25);
         dragMouse(mHost->mCanvas, {from + QPointF(3, 2), from + QPointF(20, 10), to + QPointF(3, 2)});
@@ -159,7 +161,7 @@ private Q_SLOTS:
     void aLightThatComesUnderAZoomingPointerIsPassedBy()
     {
         wheel({20, 20}, 1);
-        mHost->look(QTransform::fromTranslate(20 - 200, 20 - 150));
+        mHost->setView(QTransform::fromTranslate(20 - 200, 20 - 150));
         wheel({20, 20}, 1);
         QCOMPARE(light().z, 200.0);
     }
@@ -248,4 +250,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(DragTest)
-#include "tool_drag_test.moc"
+#include "test_drag.moc"

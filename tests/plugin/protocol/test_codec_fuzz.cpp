@@ -90,4 +90,4 @@ void CodecFuzz::mutantsAreJudged()
 }
 
 QTEST_GUILESS_MAIN(CodecFuzz)
-#include "codec_fuzz.moc"
+#include "test_codec_fuzz.moc"

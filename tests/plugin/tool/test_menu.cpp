@@ -1,5 +1,6 @@
 // The menu under the right button, and the colour that it is about.
-#include "fakes.h"
+#include "support/fake_host.h"
+#include "support/scenes.h"
 #include "tool/canvas/frame_colours.h"
 #include "tool/canvas/lamp_menu.h"
 
@@ -134,4 +135,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(MenuTest)
-#include "tool_menu_test.moc"
+#include "test_menu.moc"

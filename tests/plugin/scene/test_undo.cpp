@@ -182,4 +182,4 @@ void SceneUndo::resetForgets()
 }
 
 QTEST_GUILESS_MAIN(SceneUndo)
-#include "scene_undo.moc"
+#include "test_undo.moc"

@@ -195,4 +195,4 @@ void SceneTimeline::aFloorHasKeysToo()
 }
 
 QTEST_APPLESS_MAIN(SceneTimeline)
-#include "scene_timeline.moc"
+#include "test_timeline.moc"

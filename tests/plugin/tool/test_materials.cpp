@@ -1,6 +1,7 @@
 // The dock of materials and the document.
-#include "fakes.h"
 #include "tool/materials/materials_dock.h"
+
+#include <QtTest>
 
 using namespace lampblack;
 
@@ -94,4 +95,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(MaterialsTest)
-#include "tool_materials_test.moc"
+#include "test_materials.moc"

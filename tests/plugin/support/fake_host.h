@@ -1,13 +1,9 @@
-// A host and a worker that do as they are told.
+// A host without a drawing program: it has a window, and does what the test says.
 #pragma once
 
 #include "host/host.h"
-#include "scene/scene_document.h"
-#include "worker/worker.h"
 
-#include <QLineF>
 #include <QMainWindow>
-#include <QMouseEvent>
 #include <QtTest>
 
 namespace lampblack
@@ -16,6 +12,14 @@ namespace lampblack
 class FakeHost : public Host
 {
 public:
+    /// Frames first..last with only these layers.
+    struct Request
+    {
+        int first;
+        int last;
+        QStringList layers;
+    };
+
     FakeHost()
     {
         mWindow.resize(1000, 600);
@@ -60,20 +64,46 @@ public:
     int frameCount() const override { return 8; }
     double framesPerSecond() const override { return 12; }
     bool isPlaying() const override { return false; }
-    FrameRange loopRange() const override { return {1, 8}; }
+    FrameRange loopRange() const override { return mLoop; }
     QVector<Layer> layers() const override { return mLayers; }
-    void hideLayers(const QStringList&) override {}
-    void deliverLayer(const QString&, const QMap<int, QString>&) override {}
-    QString projectPath() const override { return {}; }
+    void hideLayers(const QStringList& names) override
+    {
+        for (Layer& layer : mLayers)
+            layer.visible = layer.visible && !names.contains(layer.name);
+    }
+    void deliverLayer(const QString& name, const QMap<int, QString>& pictures) override
+    {
+        mDelivered = pictures;
+        if (mLayers.first().name != name)
+            mLayers.prepend({name, Layer::Kind::Bitmap, true});
+        Q_EMIT layersChanged();
+        Q_EMIT layerDelivered(name);
+    }
+    QString projectPath() const override { return mProject; }
     bool isModified() const override { return false; }
     void guardLeaving(const std::function<bool()>& mayLeave) override { mMayLeave = mayLeave; }
     bool openProject(const QString&) override { return false; }
-    bool saveProject() override { return false; }
-    void requestFrames(int, int, const QStringList&) override {}
-    void cancelRequests() override {}
+    bool saveProject() override
+    {
+        ++mSaved;
+        return true;
+    }
+    void requestFrames(int first, int last, const QStringList& layers) override
+    {
+        mRequests.append({first, last, layers});
+        for (int frame = first; mDraw && frame <= last; ++frame)
+        {
+            const QImage image = mDraw(frame, layers);
+            if (image.isNull())
+                Q_EMIT exportFailed(frame, {QStringLiteral("Frame %1 is broken.").arg(frame), {}, {}});
+            else
+                Q_EMIT frameExported({frame, image, {}, layers});
+        }
+    }
+    void cancelRequests() override { ++mCancelled; }
     int pendingRequests() const override { return 0; }
 
-    void look(const QTransform& view)
+    void setView(const QTransform& view)
     {
         mView = view;
         Q_EMIT viewChanged();
@@ -99,58 +129,16 @@ public:
     QVector<Layer> mLayers;
     QVector<Ability> mCannot;
     int mFrame = 1;
+    FrameRange mLoop{1, 8};
+    QString mProject;
+    int mSaved = 0;
     std::function<bool()> mMayLeave;
+    QMap<int, QString> mDelivered;
+    QVector<Request> mRequests;
+    int mCancelled = 0;
+    /// What these layers of a frame show. With it each request is answered at once, and a null image means
+    /// that the export fails; without it none is answered.
+    std::function<QImage(int frame, const QStringList& layers)> mDraw;
 };
-
-class FakeWorker : public Worker
-{
-public:
-    State state() const override { return mState; }
-    void start() override {}
-    void stop() override {}
-    void putFrame(int frame, const QImage&, const QTransform&) override { mPut.append(frame); }
-    void dropFrame(int) override {}
-    void dropAllFrames() override {}
-    void setScene(const Scene&) override {}
-    quint64 revision() const override { return 0; }
-    bool isCurrent(const LookImage&) const override { return true; }
-    void look(int, Show, const QRectF&, const QSize&) override {}
-    void stopLooking() override {}
-    void askPalette(int) override {}
-    quint64 render(const QString&, const QString&, Quality, bool) override { return 0; }
-    void cancelRender(quint64) override {}
-
-    QVector<int> mPut;
-    State mState = State::Ready;
-};
-
-/// A mouse event as the window system would send it, modifiers and held buttons included.
-inline void sendMouse(QWidget* widget, QEvent::Type type, const QPointF& at, Qt::MouseButton button,
-                      Qt::MouseButtons held, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
-{
-    QMouseEvent event(type, at, widget->mapToGlobal(at.toPoint()), button, held, modifiers);
-    QCoreApplication::sendEvent(widget, &event);
-}
-
-/// Press at the first point, go through the others, and let go at the last.
-inline void dragMouse(QWidget* widget, const QVector<QPointF>& way,
-                      Qt::KeyboardModifiers modifiers = Qt::NoModifier, bool letGo = true)
-{
-    sendMouse(widget, QEvent::MouseButtonPress, way.first(), Qt::LeftButton, Qt::LeftButton, modifiers);
-    for (const QPointF& at : way.mid(1))
-        sendMouse(widget, QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, modifiers);
-    if (letGo)
-        sendMouse(widget, QEvent::MouseButtonRelease, way.last(), Qt::LeftButton, Qt::NoButton, modifiers);
-}
-
-inline Scene sceneWithLight(double x, double y, double z)
-{
-    Scene scene = defaultScene(QSize(400, 300));
-    scene.lights[0].x = x;
-    scene.lights[0].y = y;
-    scene.lights[0].z = z;
-    scene.lights[0].size = 100;
-    return scene;
-}
 
 } // namespace lampblack

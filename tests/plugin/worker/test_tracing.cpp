@@ -155,4 +155,4 @@ private:
 };
 
 QTEST_GUILESS_MAIN(TestRealWorker)
-#include "test_real_worker.moc"
+#include "test_tracing.moc"

@@ -1,6 +1,6 @@
 // Planes to images and back, their digests, and connection files.
-#include "protocol/planes.h"
 #include "protocol/connection.h"
+#include "protocol/planes.h"
 #include "vectors.h"
 
 #include <QDir>
@@ -129,4 +129,4 @@ void Planes::connectionFile()
 }
 
 QTEST_GUILESS_MAIN(Planes)
-#include "planes.moc"
+#include "test_planes.moc"

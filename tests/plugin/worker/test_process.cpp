@@ -174,4 +174,4 @@ private:
 };
 
 QTEST_GUILESS_MAIN(TestWorkerProcess)
-#include "test_worker_process.moc"
+#include "test_process.moc"

@@ -1,6 +1,7 @@
-// Layers that are not lit, from a host that exports at once what it is asked for.
+// Layers that are not lit, from a host that exports at once.
 #include "plugin/surroundings.h"
-#include "tool/fakes.h"
+#include "support/fake_host.h"
+#include "support/fake_worker.h"
 
 using namespace lampblack;
 
@@ -12,29 +13,13 @@ Layer layer(const char* name, bool visible = true)
     return {QLatin1String(name), Layer::Kind::Bitmap, visible};
 }
 
-/// Paints each layer in a colour of its own.
-class PlateHost : public FakeHost
+/// Each layer in a colour of its own.
+QImage plate(const QStringList& layers)
 {
-public:
-    void requestFrames(int first, int last, const QStringList& layers) override
-    {
-        for (int frame = first; frame <= last; ++frame)
-        {
-            mAsked.append({frame, layers});
-            if (layers == mBroken)
-            {
-                Q_EMIT exportFailed(frame, {});
-                continue;
-            }
-            QImage image(4, 4, QImage::Format_RGBA8888);
-            image.fill(QColor::fromHsv(layers.join(QLatin1Char(' ')).size() * 7 % 360, 255, 255));
-            Q_EMIT frameExported({frame, image, {}, layers});
-        }
-    }
-
-    QVector<QPair<int, QStringList>> mAsked;
-    QStringList mBroken;
-};
+    QImage image(4, 4, QImage::Format_RGBA8888);
+    image.fill(QColor::fromHsv(layers.join(QLatin1Char(' ')).size() * 7 % 360, 255, 255));
+    return image;
+}
 
 const LayerRoles Roles = {{QStringLiteral("Fox"), QStringLiteral("character")},
                           {QStringLiteral("Ink"), QStringLiteral("line")},
@@ -73,7 +58,11 @@ private Q_SLOTS:
 
     void eachPlateIsAskedForOnceAndKnownWhenItCame()
     {
-        PlateHost host;
+        FakeHost host;
+        host.mDraw = [](int, const QStringList& layers)
+        {
+            return plate(layers);
+        };
         FakeWorker worker;
         SceneDocument document;
         host.mLayers = {layer("Rain"), layer("Ink"), layer("Fox"), layer("Hills")};
@@ -86,26 +75,30 @@ private Q_SLOTS:
         QCOMPARE(around.below(1).layers, QStringList{QStringLiteral("Hills")});
         QCOMPARE(around.above(1).layers, QStringList{QStringLiteral("Rain")});
         // What is lit comes first, and the worker gets nothing else.
-        QCOMPARE(host.mAsked.size(), 3);
-        QCOMPARE(host.mAsked[0].second, (QStringList{QStringLiteral("Ink"), QStringLiteral("Fox")}));
+        QCOMPARE(host.mRequests.size(), 3);
+        QCOMPARE(host.mRequests[0].layers, (QStringList{QStringLiteral("Ink"), QStringLiteral("Fox")}));
         QCOMPARE(worker.mPut, QVector<int>{1});
 
         feed.wantAll(1, 2);
-        QCOMPARE(host.mAsked.size(), 6);
+        QCOMPARE(host.mRequests.size(), 6);
         // The same background in all frames is kept once.
         QCOMPARE(around.below(1).image.cacheKey(), around.below(2).image.cacheKey());
 
         Q_EMIT host.drawingChanged(1);
-        QCOMPARE(host.mAsked.size(), 9);
+        QCOMPARE(host.mRequests.size(), 9);
     }
 
     void whatCannotBeHadDoesNotKeepTheLightAway()
     {
-        PlateHost host;
+        FakeHost host;
+        const QStringList broken{QStringLiteral("Hills")};
+        host.mDraw = [&broken](int, const QStringList& layers)
+        {
+            return layers == broken ? QImage() : plate(layers);
+        };
         FakeWorker worker;
         SceneDocument document;
         host.mLayers = {layer("Fox"), layer("Hills")};
-        host.mBroken = QStringList{QStringLiteral("Hills")};
         document.setLayerRoles(Roles);
         FrameFeed feed(host, worker, document);
         const Surroundings around(host, feed, document);
@@ -116,4 +109,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(SurroundingsTest)
-#include "test_surroundings.moc"
+#include "test_unlit_layers.moc"

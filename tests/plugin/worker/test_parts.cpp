@@ -251,4 +251,4 @@ private Q_SLOTS:
 };
 
 QTEST_GUILESS_MAIN(TestWorkerParts)
-#include "test_worker_parts.moc"
+#include "test_parts.moc"

@@ -394,4 +394,4 @@ private:
 };
 
 QTEST_GUILESS_MAIN(TestWorkerSession)
-#include "test_worker_session.moc"
+#include "test_session.moc"

@@ -1,5 +1,6 @@
 // The lit picture lands on the drawing's own pixels under every view.
-#include "fakes.h"
+#include "support/fake_host.h"
+#include "support/scenes.h"
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/lit_picture.h"
 
@@ -182,4 +183,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(PictureTest)
-#include "tool_picture_test.moc"
+#include "test_picture.moc"

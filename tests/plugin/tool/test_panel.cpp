@@ -1,5 +1,6 @@
 // Panel and document agree, both ways, and neither echoes.
-#include "fakes.h"
+#include "support/fake_host.h"
+#include "support/scenes.h"
 #include "tool/panel/lamp_panel.h"
 #include "tool/panel/value_row.h"
 
@@ -228,4 +229,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(PanelTest)
-#include "tool_panel_test.moc"
+#include "test_panel.moc"

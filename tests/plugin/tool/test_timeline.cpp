@@ -1,6 +1,8 @@
 // Keyed lights and floors: seen where they are at the frame, changed by a key there, one step a drag.
-#include "fakes.h"
 #include "scene/timeline.h"
+#include "support/fake_host.h"
+#include "support/mouse.h"
+#include "support/scenes.h"
 #include "tool/canvas/canvas_input.h"
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/key_input.h"
@@ -243,4 +245,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(TimelineTest)
-#include "tool_timeline_test.moc"
+#include "test_timeline.moc"

@@ -1,5 +1,8 @@
 // The lamp as a whole, in a host that does as it is told.
-#include "fakes.h"
+#include "support/fake_host.h"
+#include "support/fake_worker.h"
+#include "support/mouse.h"
+#include "support/scenes.h"
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/lamp_tool.h"
 #include "tool/panel/problem_card.h"
@@ -218,4 +221,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(LampTest)
-#include "tool_lamp_test.moc"
+#include "test_lamp.moc"

@@ -1,5 +1,7 @@
 // Keys: undo goes to the scene first, and to the drawing program once the scene has nothing left.
-#include "fakes.h"
+#include "support/fake_host.h"
+#include "support/mouse.h"
+#include "support/scenes.h"
 #include "tool/canvas/canvas_input.h"
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/key_input.h"
@@ -90,7 +92,7 @@ private Q_SLOTS:
 
     void arrowsNudgeOnTheScreenInOneStep()
     {
-        mHost->look(QTransform().translate(300, 0).rotate(90));
+        mHost->setView(QTransform().translate(300, 0).rotate(90));
         for (int press = 0; press < 3; ++press)
             key(Qt::Key_Right);
         key(Qt::Key_Down, Qt::ShiftModifier);
@@ -144,4 +146,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(KeysTest)
-#include "tool_keys_test.moc"
+#include "test_keys.moc"

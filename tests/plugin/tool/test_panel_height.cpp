@@ -93,4 +93,4 @@ private Q_SLOTS:
 };
 
 QTEST_MAIN(PanelHeightTest)
-#include "tool_panel_height_test.moc"
+#include "test_panel_height.moc"

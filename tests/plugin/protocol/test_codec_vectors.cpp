@@ -118,4 +118,4 @@ void CodecVectors::headerBeginsLiterally()
 }
 
 QTEST_GUILESS_MAIN(CodecVectors)
-#include "codec_vectors.moc"
+#include "test_codec_vectors.moc"

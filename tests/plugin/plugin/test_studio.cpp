@@ -1,0 +1,291 @@
+// The plugin as a whole: what the worker is sent and what the artist is shown.
+#include "support/studio_test.h"
+#include "tool/panel/problem_card.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+
+using namespace lampblack;
+
+class StudioPreviewTest : public StudioTest
+{
+    Q_OBJECT
+
+private:
+    /// Use the lamp until the picture of the current frame is shown.
+    void openLit()
+    {
+        mHost->open();
+        QTRY_VERIFY(!mWorker->mViews.isEmpty());
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(mHost->currentFrame()));
+        QVERIFY(showsPicture());
+        QVERIFY(mStudio->isSettled());
+    }
+
+private Q_SLOTS:
+    void lampThatIsNeverPickedCostsNothing()
+    {
+        mHost->mWindow.show();
+        mHost->goToFrame(2);
+        Q_EMIT mHost->drawingChanged(2);
+        Q_EMIT mHost->viewChanged();
+        QTest::qWait(20);
+        QCOMPARE(mWorker->mStarted, 0);
+        QVERIFY(mHost->mRequests.isEmpty());
+        QVERIFY(mWorker->mViews.isEmpty());
+    }
+
+    void pickingTheLampShowsTheFrame()
+    {
+        mHost->open();
+        QCOMPARE(mWorker->mStarted, 1);
+        QCOMPARE(mWorker->mScenes.last(), defaultScene(mHost->canvasSize()));
+        QCOMPARE(mHost->mRequests.size(), 1);
+        QCOMPARE(mHost->mRequests[0].layers, (QStringList{QStringLiteral("Line"), QStringLiteral("Hills")}));
+        QCOMPARE(mWorker->mPut, QVector<int>{1});
+        QCOMPARE(mWorker->mPalettes, QVector<int>{1});
+        QTRY_COMPARE(mWorker->mViews.size(), 1);
+        QCOMPARE(mWorker->mViews[0].frame, 1);
+        QCOMPARE(mWorker->mViews[0].show, Show::Lit);
+        QVERIFY(!showsPicture());
+
+        LookImage coarse = mWorker->pictureOf(1);
+        coarse.converged = false;
+        Q_EMIT mWorker->imageArrived(coarse);
+        QVERIFY(showsPicture());
+        QCOMPARE(mStudio->shownRevision(), mStudio->sentRevision());
+        QVERIFY(!mStudio->isSettled());
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(mStudio->isSettled());
+    }
+
+    void editIsSentOnce()
+    {
+        openLit();
+        const int scenes = mWorker->mScenes.size();
+        setPower(2.5);
+        QCOMPARE(mWorker->mScenes.size(), scenes + 1);
+        QCOMPARE(sentPower(), 2.5);
+        QCOMPARE(mStudio->sentRevision(), mWorker->revision());
+        QVERIFY(!mStudio->isSettled());
+        setPower(2.5);
+        QTest::qWait(20);
+        QCOMPARE(mWorker->mScenes.size(), scenes + 1);
+        QCOMPARE(mWorker->mViews.size(), 1); // the worker lights what it was asked for, again
+
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(mStudio->isSettled());
+    }
+
+    void burstOfViewsAsksForOnePicture()
+    {
+        openLit();
+        for (int shift = 1; shift <= 10; ++shift)
+            mHost->setView(QTransform::fromTranslate(-shift, 0));
+        QTRY_COMPARE(mWorker->mViews.size(), 2);
+        QTest::qWait(20);
+        QCOMPARE(mWorker->mViews.size(), 2);
+        QCOMPARE(mWorker->mViews[1].crop.left(), 10.0);
+    }
+
+    void newDrawingReplacesThePicture()
+    {
+        openLit();
+        const LookImage old = mWorker->pictureOf(1);
+        Q_EMIT mHost->drawingChanged(1);
+        QCOMPARE(mWorker->mPut, (QVector<int>{1, 1}));
+        QCOMPARE(mWorker->mPalettes, (QVector<int>{1, 1}));
+        QVERIFY(!showsPicture());
+        QVERIFY(!mStudio->isSettled());
+        mHost->goToFrame(2);
+        mHost->goToFrame(1);
+        QVERIFY2(!showsPicture(), "the picture of the old drawing is not kept");
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(showsPicture() && mStudio->isSettled());
+    }
+
+    void drawingThatTheWorkerLacksIsSentAgain()
+    {
+        openLit();
+        const int requests = mHost->mRequests.size();
+        Q_EMIT mWorker->frameWanted(3);
+        QCOMPARE(mHost->mRequests.size(), requests + 1);
+        QCOMPARE(mHost->mRequests.last().first, 3);
+        QCOMPARE(mHost->mRequests.last().layers, mHost->mRequests.first().layers);
+        QCOMPARE(mWorker->mPut, (QVector<int>{1, 3}));
+    }
+
+    void pictureOfAnotherFrameIsNotShown()
+    {
+        mHost->open();
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(2));
+        QVERIFY(!showsPicture());
+        QCOMPARE(mStudio->shownRevision(), 0ULL);
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(showsPicture());
+        mHost->goToFrame(2);
+        QVERIFY(!showsPicture());
+        QVERIFY(!mStudio->isSettled());
+    }
+
+    void pictureSeenBeforeReturnsWhileItIsCurrent()
+    {
+        openLit();
+        mHost->goToFrame(2);
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(2));
+        mHost->goToFrame(1);
+        QVERIFY(showsPicture());
+        setPower(2.5);
+        mHost->goToFrame(2);
+        QVERIFY2(!showsPicture(), "it shows the scene as it was");
+    }
+
+    void pictureOfAnotherViewIsNotShown()
+    {
+        openLit();
+        find<QAbstractButton>("panel.view.normals")->click();
+        QVERIFY(!showsPicture());
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(!showsPicture());
+        QTRY_COMPARE(mWorker->mViews.last().show, Show::Normals);
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1, Show::Normals));
+        QVERIFY(showsPicture());
+    }
+
+    void pictureWaitsForItsBackground()
+    {
+        mHost->open();
+        mHost->mDraw = {};
+        const QStringList lit{QStringLiteral("Line")};
+        const QStringList background{QStringLiteral("Hills")};
+        auto* role = find<QComboBox>("panel.layer.Hills");
+        Q_EMIT role->activated(role->findData(QStringLiteral("background")));
+        QCOMPARE(mWorker->mDropped, 1);
+        QCOMPARE(mHost->mRequests.last().layers, lit);
+        Q_EMIT mHost->frameExported({1, drawing(), {}, lit});
+        QCOMPARE(mHost->mRequests.last().layers, background);
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(!showsPicture());
+        Q_EMIT mHost->frameExported({1, drawing(), {}, background});
+        QVERIFY(showsPicture());
+        QCOMPARE(mWorker->mPut, (QVector<int>{1, 1})); // the background stays with us
+    }
+
+    void lostWorkerIsReportedAndFollowedByTheNext()
+    {
+        openLit();
+        auto* line = find<QLabel>("panel.worker");
+        const QString ready = line->text();
+        mWorker->setState(Worker::State::Restarting);
+        QVERIFY(line->text() != ready);
+        Q_EMIT mWorker->problem({QStringLiteral("It ended."), QStringLiteral("Wait."), {}});
+        QVERIFY(!find<ProblemCard>("panel.problem")->isHidden());
+        QCOMPARE(find<QLabel>("panel.problem.what")->text(), QStringLiteral("It ended."));
+        QCOMPARE(find<QLabel>("panel.problem.remedy")->text(), QStringLiteral("Wait."));
+        setPower(2.5);
+        QCOMPARE(sentPower(), 2.5);
+
+        mWorker->setState(Worker::State::Ready);
+        QCOMPARE(line->text(), ready);
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(showsPicture() && mStudio->isSettled());
+    }
+
+    void leavingTheLampStopsTheWork()
+    {
+        openLit();
+        const int stopped = mWorker->mStoppedLooking;
+        mHost->mTool->setChecked(false);
+        QCOMPARE(mHost->mCancelled, 1);
+        QTRY_COMPARE(mWorker->mStoppedLooking, stopped + 1);
+        QVERIFY(!showsPicture());
+        const int requests = mHost->mRequests.size();
+        Q_EMIT mHost->drawingChanged(1);
+        mHost->goToFrame(2);
+        QCOMPARE(mHost->mRequests.size(), requests);
+        QCOMPARE(mWorker->mStopped, 0);
+    }
+
+    void coloursOfAllFramesSeenAreListed()
+    {
+        const auto rows = [this]
+        {
+            QStringList colours;
+            const auto found = mHost->mWindow.findChildren<QWidget*>(
+                QRegularExpression(QStringLiteral("^lampblack\\.materials\\.row\\.#......$")));
+            for (const QWidget* row : found)
+                colours.append(row->objectName().right(7));
+            colours.sort();
+            return colours;
+        };
+        mHost->open();
+        const QString red = QStringLiteral("#ff0000");
+        const QString blue = QStringLiteral("#0000ff");
+        Q_EMIT mWorker->paletteArrived(1, {{red, 10}});
+        Q_EMIT mWorker->paletteArrived(2, {{QStringLiteral("#00ff00"), 10}}); // nobody looks at it
+        QCOMPARE(rows(), QStringList{red});
+        mHost->goToFrame(2);
+        Q_EMIT mWorker->paletteArrived(2, {{blue, 20}});
+        QCOMPARE(rows(), (QStringList{blue, red}));
+        Q_EMIT mHost->projectOpened(mHost->mProject);
+        Q_EMIT mWorker->paletteArrived(2, {{blue, 20}});
+        QTRY_COMPARE(rows(), QStringList{blue});
+    }
+
+    void sceneIsSavedAndLoadedWithItsProject()
+    {
+        const QString project = mHost->mProject;
+        const QString sidecar = SceneDocument::sidecarOf(project);
+        Q_EMIT mHost->projectSaved(project);
+        QVERIFY2(!QFile::exists(sidecar), "a project that was never lit gets no file");
+        setPower(2.5);
+        QVERIFY(!QFile::exists(sidecar));
+        Q_EMIT mHost->projectSaved(project);
+        QVERIFY(QFile::exists(sidecar));
+
+        mHost->mProject = mFolder->filePath(QStringLiteral("run.pclx"));
+        Q_EMIT mHost->projectOpened(mHost->mProject);
+        QCOMPARE(mWorker->mScenes.last(), defaultScene(mHost->canvasSize()));
+        mHost->mProject = project;
+        Q_EMIT mHost->projectOpened(project);
+        QCOMPARE(sentPower(), 2.5);
+    }
+
+    void unsavedLightIsAskedFor()
+    {
+        QVERIFY(mHost->mMayLeave());
+        setPower(2.5);
+        for (const auto button : {QMessageBox::Cancel, QMessageBox::Save})
+        {
+            QTimer::singleShot(0, mHost.get(),
+                               [button]
+                               {
+                                   auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+                                   QVERIFY(box != nullptr);
+                                   box->button(button)->click();
+                               });
+            QCOMPARE(mHost->mMayLeave(), button == QMessageBox::Save);
+        }
+        QVERIFY(QFile::exists(SceneDocument::sidecarOf(mHost->mProject)));
+    }
+
+    void closingEndsTheWorkerAndClearsTheWindow()
+    {
+        openLit();
+        mStudio->close();
+        QCOMPARE(mWorker->mStopped, 1);
+        QVERIFY(mHost->mCanvas->findChildren<QWidget*>().isEmpty());
+        QVERIFY(!mHost->mMayLeave);
+        QVERIFY(!mStudio->isSettled());
+        const int requests = mHost->mRequests.size();
+        mHost->goToFrame(2);
+        Q_EMIT mHost->drawingChanged(2);
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(2));
+        QCOMPARE(mHost->mRequests.size(), requests);
+    }
+};
+
+QTEST_MAIN(StudioPreviewTest)
+#include "test_studio.moc"

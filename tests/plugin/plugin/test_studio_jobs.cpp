@@ -1,0 +1,113 @@
+// The plugin as a whole: "Generate Surfaces" and "Render All Frames", from the button to the end.
+#include "support/studio_test.h"
+
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QProgressBar>
+
+using namespace lampblack;
+
+class StudioJobsTest : public StudioTest
+{
+    Q_OBJECT
+
+private:
+    void click(const char* button) const { find<QAbstractButton>(button)->click(); }
+    bool isWorking() const { return !find<QAbstractButton>("panel.cancel")->isHidden(); }
+
+private Q_SLOTS:
+    void renderNeedsNoLamp()
+    {
+        click("panel.render");
+        QCOMPARE(mWorker->mStarted, 1);
+        QCOMPARE(mWorker->mScenes.last(), defaultScene(mHost->canvasSize()));
+        QCOMPARE(mWorker->mPut, (QVector<int>{1, 2, 3, 4, 5, 6, 7, 8}));
+        QCOMPARE(mWorker->mFrames, QStringLiteral("1-8"));
+        QCOMPARE(mWorker->mOutput, mFolder->filePath(QStringLiteral("walk_lit/walk.%04d.png")));
+        QVERIFY(isWorking());
+
+        mWorker->finishFrames({1, 2, 3});
+        Q_EMIT mWorker->renderProgress(mWorker->mJob, 3, 1, 3, 8);
+        QCOMPARE(find<QProgressBar>("panel.render.progress")->value(), 3);
+        QVERIFY(mHost->mStatus.contains(QLatin1String("3 / 8")));
+        mWorker->finishFrames({4, 5, 6, 7, 8});
+        mWorker->endJob();
+        QTRY_VERIFY(!isWorking());
+        QCOMPARE(mHost->mDelivered.size(), 8);
+        QVERIFY(mHost->mStatus.contains(QLatin1String("8 lit frames")));
+        const int requests = mHost->mRequests.size();
+        Q_EMIT mHost->drawingChanged(1);
+        QCOMPARE(mHost->mRequests.size(), requests);
+    }
+
+    void chosenFramesAreRendered_data()
+    {
+        QTest::addColumn<int>("choice");
+        QTest::addColumn<QString>("frames");
+        QTest::newRow("all") << 0 << "1-8";
+        QTest::newRow("loop") << 1 << "3-5";
+        QTest::newRow("current") << 2 << "2";
+    }
+
+    void chosenFramesAreRendered()
+    {
+        QFETCH(int, choice);
+        mHost->mLoop = {3, 5};
+        mHost->mFrame = 2;
+        find<QComboBox>("panel.range")->setCurrentIndex(choice);
+        Q_EMIT find<QComboBox>("panel.quality")->activated(int(Quality::Final));
+        click("panel.render");
+        QTEST(mWorker->mFrames, "frames");
+        QCOMPARE(mWorker->mQuality, Quality::Final);
+    }
+
+    void cancelledRenderEnds()
+    {
+        click("panel.render");
+        click("panel.cancel");
+        QCOMPARE(mWorker->mCancelled, 1);
+        QVERIFY(!isWorking());
+        QCOMPARE(mHost->mStatus, QStringLiteral("Cancelled."));
+        mWorker->endJob();
+        QTest::qWait(20);
+        QVERIFY(mHost->mDelivered.isEmpty());
+    }
+
+    void renderWithoutAProjectIsRefused()
+    {
+        mHost->mProject.clear();
+        click("panel.render");
+        QVERIFY(!isWorking());
+        QCOMPARE(mWorker->mJob, 0ULL);
+        QVERIFY(!find<QWidget>("panel.problem")->isHidden());
+    }
+
+    void jobGoesOnWithoutTheLamp()
+    {
+        mHost->open();
+        mHost->mDraw = {}; // the host is busy
+        click("panel.render");
+        const int cancelled = mHost->mCancelled;
+        mHost->mTool->setChecked(false);
+        QCOMPARE(mHost->mCancelled, cancelled);
+        for (int frame = 2; frame <= 8; ++frame)
+            Q_EMIT mHost->frameExported({frame, drawing(), {}, mHost->mRequests.last().layers});
+        QCOMPARE(mWorker->mFrames, QStringLiteral("1-8"));
+    }
+
+    void surfacesAreMadeOfAllFrames()
+    {
+        click("panel.generate");
+        QCOMPARE(mWorker->mStarted, 1);
+        QCOMPARE(mWorker->mPut.size(), 8);
+        Q_EMIT mWorker->framesLit(3, 8);
+        QCOMPARE(find<QProgressBar>("panel.generate.progress")->value(), 3);
+        QVERIFY(isWorking());
+        Q_EMIT mWorker->framesLit(8, 8);
+        QVERIFY(!isWorking());
+        QCOMPARE(mWorker->mJob, 0ULL);
+    }
+};
+
+QTEST_MAIN(StudioJobsTest)
+#include "test_studio_jobs.moc"

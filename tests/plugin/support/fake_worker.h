@@ -1,0 +1,100 @@
+// A worker without a process: it keeps what it is asked, and answers when the test says so.
+#pragma once
+
+#include "worker/worker.h"
+
+#include <QFile>
+#include <QtTest>
+
+namespace lampblack
+{
+
+class FakeWorker : public Worker
+{
+public:
+    struct View
+    {
+        int frame;
+        Show show;
+        QRectF crop;
+        QSize size;
+    };
+
+    State state() const override { return mState; }
+    void start() override { ++mStarted; }
+    void stop() override { ++mStopped; }
+    void putFrame(int frame, const QImage&, const QTransform&) override { mPut.append(frame); }
+    /// What each drawing put is known by: how many there were of its frame.
+    QByteArray digestOf(int frame) const { return QByteArray::number(mPut.count(frame)); }
+    void dropFrame(int) override {}
+    void dropAllFrames() override { ++mDropped; }
+    void setScene(const Scene& scene) override { mScenes.append(scene); }
+    quint64 revision() const override { return quint64(mScenes.size()); }
+    bool isCurrent(const LookImage& image) const override
+    {
+        return image.digest == digestOf(image.frame) &&
+               (image.show != Show::Lit || image.revision == revision());
+    }
+    void look(int frame, Show show, const QRectF& crop, const QSize& size) override
+    {
+        mViews.append({frame, show, crop, size});
+    }
+    void stopLooking() override { ++mStoppedLooking; }
+    void askPalette(int frame) override { mPalettes.append(frame); }
+    quint64 render(const QString& frames, const QString& output, Quality quality, bool) override
+    {
+        mFrames = frames;
+        mOutput = output;
+        mQuality = quality;
+        return ++mJob;
+    }
+    void cancelRender(quint64) override { ++mCancelled; }
+
+    /// A picture of the frame's drawing under the scene, both as they are now.
+    LookImage pictureOf(int frame, Show show = Show::Lit) const
+    {
+        LookImage image;
+        image.frame = frame;
+        image.show = show;
+        image.crop = QRectF(0, 0, 400, 300);
+        image.picture = QImage(4, 3, QImage::Format_RGBA8888_Premultiplied);
+        image.picture.fill(Qt::red);
+        image.digest = digestOf(frame);
+        image.revision = revision();
+        image.converged = true;
+        return image;
+    }
+    void setState(State state)
+    {
+        mState = state;
+        Q_EMIT stateChanged(state);
+    }
+    /// Write the file of each frame, and say so.
+    void finishFrames(const QVector<int>& frames)
+    {
+        for (const int frame : frames)
+        {
+            QFile file(QString(mOutput).replace(QStringLiteral("%04d"), QStringLiteral("000%1").arg(frame)));
+            QVERIFY(file.open(QFile::WriteOnly));
+            Q_EMIT renderFrameDone(mJob, frame, file.fileName());
+        }
+    }
+    void endJob() { Q_EMIT renderDone(mJob, QStringLiteral("finished"), 0, 0, 0); }
+
+    State mState = State::Ready;
+    int mStarted = 0;
+    int mStopped = 0;
+    QVector<int> mPut;
+    int mDropped = 0; ///< how often all frames were
+    QVector<Scene> mScenes;
+    QVector<View> mViews;
+    int mStoppedLooking = 0;
+    QVector<int> mPalettes;
+    QString mFrames; ///< of the last job, as are the next three
+    QString mOutput;
+    Quality mQuality = Quality::Low;
+    quint64 mJob = 0;
+    int mCancelled = 0;
+};
+
+} // namespace lampblack

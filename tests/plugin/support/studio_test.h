@@ -1,0 +1,68 @@
+// A studio between a host without a drawing program and a worker without a process.
+#pragma once
+
+#include "plugin/studio.h"
+#include "support/fake_host.h"
+#include "support/fake_worker.h"
+#include "tool/canvas/canvas_overlay.h"
+
+#include <QDoubleSpinBox>
+#include <QTemporaryDir>
+
+namespace lampblack
+{
+
+/// Makes a studio for each test. The host has an empty project file and exports at once.
+class StudioTest : public QObject
+{
+    Q_OBJECT
+
+protected:
+    static QImage drawing()
+    {
+        QImage image(400, 300, QImage::Format_RGBA8888);
+        image.fill(Qt::white);
+        return image;
+    }
+    template <class Widget> Widget* find(const char* name) const
+    {
+        auto* found = mHost->mWindow.findChild<Widget*>(QLatin1String("lampblack.") + QLatin1String(name));
+        [&]
+        {
+            QVERIFY2(found != nullptr, name);
+        }();
+        return found;
+    }
+    void setPower(double power) const { find<QDoubleSpinBox>("panel.power.field")->setValue(power); }
+    double sentPower() const { return mWorker->mScenes.last().lights.first().power; }
+    bool showsPicture() const { return find<CanvasOverlay>("overlay")->showsPicture(); }
+
+    std::unique_ptr<QTemporaryDir> mFolder;
+    std::unique_ptr<FakeHost> mHost;
+    FakeWorker* mWorker = nullptr; ///< the studio's own
+    std::unique_ptr<Studio> mStudio;
+
+private Q_SLOTS:
+    void init()
+    {
+        mFolder = std::make_unique<QTemporaryDir>();
+        mHost = std::make_unique<FakeHost>();
+        mHost->mProject = mFolder->filePath(QStringLiteral("walk.pclx"));
+        QVERIFY(QFile(mHost->mProject).open(QFile::WriteOnly));
+        mHost->mDraw = [](int, const QStringList&)
+        {
+            return QImage(400, 300, QImage::Format_RGBA8888);
+        };
+        auto worker = std::make_unique<FakeWorker>();
+        mWorker = worker.get();
+        mStudio = std::make_unique<Studio>(*mHost, std::move(worker));
+    }
+
+    void cleanup()
+    {
+        mStudio.reset();
+        mHost.reset();
+    }
+};
+
+} // namespace lampblack
