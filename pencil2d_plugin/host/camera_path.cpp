@@ -62,7 +62,7 @@ std::optional<CameraKeys> readCamera(const Parts& parts, const LayerRows& rows, 
     const int frameBefore = currentFrame();
     rows.select(row);
 
-    // Stepping from key to key stops where the frame no longer changes.
+    // At the last key the frame does not change any more.
     const auto step = [&currentFrame](QAction* action)
     {
         const int from = currentFrame();

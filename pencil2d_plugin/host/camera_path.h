@@ -1,4 +1,4 @@
-// How the camera moves, frame by frame.
+// The view of the camera at each frame.
 #pragma once
 
 #include "host/layer_rows.h"
@@ -11,21 +11,22 @@
 namespace lampblack
 {
 
-/// Key frames of a camera: its view (Pencil2D's canvas to picture, both centred) by frame.
+/// The key frames of a camera: its view (Pencil2D's canvas to picture, both with origins at the centre) by
+/// frame.
 using CameraKeys = QMap<int, QTransform>;
 
-/// The view at a frame: held before the first and after the last key, and between two each number of
-/// the matrix goes evenly from one to the other, as Pencil2D 0.6 does.
+/// The view at a frame. Before the first and after the last key it is constant. Between two keys the elements
+/// of the matrix are interpolated linearly, as in Pencil2D 0.6.
 QTransform cameraAt(const CameraKeys& keys, int frame);
 
-/// Where Pencil2D's origin lies in an exported picture of this size: its centre, in whole pixels.
+/// Pencil2D's origin in an exported picture of this size: the centre, rounded down to whole pixels.
 QPointF originIn(const QSize& size);
 
-/// Canvas to exported picture under this view, for pictures of this size.
+/// Transforms canvas coordinates to an exported picture of this size under this view.
 QTransform canvasToImage(const QTransform& view, const QSize& size);
 
-/// Reads the key frames of the camera in `row`, then comes back to the frame and layer that were
-/// current. Nothing, if it lost its way; then at most the current frame differs.
+/// Read the key frames of the camera layer in `row`, by going to each of them. The current frame and layer
+/// are restored. No value on failure, after which the current frame may be another one.
 std::optional<CameraKeys> readCamera(const Parts& parts, const LayerRows& rows, ViewReader* view, int row,
                                      const std::function<int()>& currentFrame);
 

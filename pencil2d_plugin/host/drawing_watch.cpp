@@ -10,38 +10,38 @@ namespace
 
 constexpr int DebounceMs = 100;
 
-constexpr const char* Edits[] = {"actionUndo",
-                                 "actionRedo",
-                                 "actionCut",
-                                 "actionPaste",
-                                 "actionCrop",
-                                 "actionCrop_To_Selection",
-                                 "actionClear",
-                                 "actionClearFrame",
-                                 "actionFlip_X",
-                                 "actionFlip_Y",
-                                 "actionAdd_Frame",
-                                 "actionDuplicate_Frame",
-                                 "actionRemove_Frame",
-                                 "actionExtend_Frame",
-                                 "actionMove_Frame_Forward",
-                                 "actionMove_Frame_Backward",
-                                 "actionImport_Image",
-                                 "actionImport_ImageSeq",
-                                 "actionImport_ImageSeqNum",
-                                 "actionImport_MovieVideo",
-                                 "actionImport_Gif",
-                                 "actionImportLayers_from_pclx",
-                                 "actionPegbarAlignment",
-                                 "actionDeselect_All",
-                                 "actionChangeLineColorCurrent_keyframe",
-                                 "actionChangeLineColorAll_keyframes_on_layer"};
+constexpr const char* EditActions[] = {"actionUndo",
+                                       "actionRedo",
+                                       "actionCut",
+                                       "actionPaste",
+                                       "actionCrop",
+                                       "actionCrop_To_Selection",
+                                       "actionClear",
+                                       "actionClearFrame",
+                                       "actionFlip_X",
+                                       "actionFlip_Y",
+                                       "actionAdd_Frame",
+                                       "actionDuplicate_Frame",
+                                       "actionRemove_Frame",
+                                       "actionExtend_Frame",
+                                       "actionMove_Frame_Forward",
+                                       "actionMove_Frame_Backward",
+                                       "actionImport_Image",
+                                       "actionImport_ImageSeq",
+                                       "actionImport_ImageSeqNum",
+                                       "actionImport_MovieVideo",
+                                       "actionImport_Gif",
+                                       "actionImportLayers_from_pclx",
+                                       "actionPegbarAlignment",
+                                       "actionDeselect_All",
+                                       "actionChangeLineColorCurrent_keyframe",
+                                       "actionChangeLineColorAll_keyframes_on_layer"};
 
 constexpr const char* EditorSignals[] = {"frameModified(int)", "framesModified()", "objectChanged()",
                                          "updateBackup()"};
 
 /// moc's "2" marks a signal, as SIGNAL() writes it.
-QByteArray asSignal(const char* signature)
+QByteArray signalCode(const char* signature)
 {
     return QByteArray("2") + signature;
 }
@@ -51,63 +51,63 @@ QByteArray asSignal(const char* signature)
 DrawingWatch::DrawingWatch(const Parts& parts, Idleness* idleness, QObject* parent)
     : QObject(parent), mParts(parts), mIdleness(idleness)
 {
-    for (QTimer* timer : {&mDebounce, &mLayerDebounce})
+    for (QTimer* timer : {&mChangeTimer, &mLayersTimer})
     {
         timer->setSingleShot(true);
         timer->setInterval(DebounceMs);
     }
-    connect(&mDebounce, &QTimer::timeout, this,
+    connect(&mChangeTimer, &QTimer::timeout, this,
             [this]
             {
-                // A stroke announces itself before it is drawn.
+                // Pencil2D emits its signal at the start of a stroke.
                 if (mIdleness->areHandsOff())
                     Q_EMIT changed();
                 else
-                    mDebounce.start();
+                    mChangeTimer.start();
             });
-    connect(&mLayerDebounce, &QTimer::timeout, this, &DrawingWatch::layersTouched);
+    connect(&mLayersTimer, &QTimer::timeout, this, &DrawingWatch::layersMaybeChanged);
     connect(idleness, &Idleness::released, this, &DrawingWatch::onReleased);
-    connect(idleness, &Idleness::keyReleased, this, &DrawingWatch::onKey);
-    for (const char* name : Edits)
+    connect(idleness, &Idleness::keyReleased, this, &DrawingWatch::onKeyReleased);
+    for (const char* name : EditActions)
     {
         if (QAction* action = parts.action(name))
-            connect(action, &QAction::triggered, this, &DrawingWatch::touch);
+            connect(action, &QAction::triggered, this, &DrawingWatch::onEdited);
     }
     for (const char* signature : EditorSignals)
     {
         if (has(parts.editor, signature))
-            connect(parts.editor, asSignal(signature).constData(), this, SLOT(touch()));
+            connect(parts.editor, signalCode(signature).constData(), this, SLOT(onEdited()));
     }
     if (has(parts.palette, "clearButtonClicked()"))
-        connect(parts.palette, SIGNAL(clearButtonClicked()), this, SLOT(touch()));
+        connect(parts.palette, SIGNAL(clearButtonClicked()), this, SLOT(onEdited()));
     for (const char* signature : {"layerCountChanged(int)", "layerDeleted(int)"})
     {
         if (has(parts.layers, signature))
-            connect(parts.layers, asSignal(signature).constData(), this, SLOT(touchLayers()));
+            connect(parts.layers, signalCode(signature).constData(), this, SLOT(onLayersEdited()));
     }
     if (QAction* import = parts.action("actionImportLayers_from_pclx"))
-        connect(import, &QAction::triggered, this, &DrawingWatch::touchLayers);
+        connect(import, &QAction::triggered, this, &DrawingWatch::onLayersEdited);
 }
 
-void DrawingWatch::touch()
+void DrawingWatch::onEdited()
 {
     if (!mIdleness->isWorking())
-        mDebounce.start();
+        mChangeTimer.start();
 }
 
-void DrawingWatch::touchLayers()
+void DrawingWatch::onLayersEdited()
 {
     if (mIdleness->isWorking())
         return;
-    mLayerDebounce.start();
-    mDebounce.start();
+    mLayersTimer.start();
+    mChangeTimer.start();
 }
 
-void DrawingWatch::onReleased(QObject* where, const Gesture& gesture)
+void DrawingWatch::onReleased(QObject* widget, const Gesture& gesture)
 {
-    if ((where == mParts.canvas && !mToolActive) || where == mParts.trackCells)
-        mDebounce.start();
-    else if (where == mParts.layerCells)
+    if ((widget == mParts.canvas && !mToolActive) || widget == mParts.trackCells)
+        mChangeTimer.start();
+    else if (widget == mParts.layerCells)
         onLayerCells(gesture);
 }
 
@@ -116,12 +116,12 @@ void DrawingWatch::onLayerCells(const Gesture& gesture)
     constexpr int EyeEnd = 20;
     constexpr int DragStart = 5;
     if (gesture.doubleClick || std::abs(gesture.to.y() - gesture.from.y()) > DragStart)
-        touchLayers();
+        onLayersEdited();
     else if (gesture.from.x() < EyeEnd)
-        Q_EMIT eyeTouched();
+        Q_EMIT eyeMaybeChanged();
 }
 
-void DrawingWatch::onKey(int key)
+void DrawingWatch::onKeyReleased(int key)
 {
     // Keys that end a polyline, apply a transformation or empty a selection.
     switch (key)
@@ -131,7 +131,7 @@ void DrawingWatch::onKey(int key)
     case Qt::Key_Escape:
     case Qt::Key_Delete:
     case Qt::Key_Backspace:
-        touch();
+        onEdited();
         break;
     default:
         break;

@@ -1,4 +1,4 @@
-// Tells when the drawing may have changed: a stroke ended, an undo, a paste, a key frame moved.
+// Detects that the drawing may have changed: after a stroke, an undo, a paste, a moved key frame.
 #pragma once
 
 #include "host/idleness.h"
@@ -16,27 +16,27 @@ class DrawingWatch : public QObject
 public:
     DrawingWatch(const Parts& parts, Idleness* idleness, QObject* parent);
 
-    /// Strokes are ours, not drawing, while our tool is in use.
+    /// While our tool is active, strokes on the canvas are not drawing.
     void setToolActive(bool active) { mToolActive = active; }
 
 Q_SIGNALS:
-    void changed();       ///< once, a little after the last of a burst
-    void layersTouched(); ///< layers may have come, gone, moved or been renamed
-    void eyeTouched();    ///< a layer may have been shown or hidden
+    void changed();            ///< emitted once, shortly after the last of several changes
+    void layersMaybeChanged(); ///< layers may have been added, removed, moved or renamed
+    void eyeMaybeChanged();    ///< a layer may have been shown or hidden
 
 private Q_SLOTS:
-    void touch();
-    void touchLayers();
+    void onEdited();
+    void onLayersEdited();
 
 private:
-    void onReleased(QObject* where, const Gesture& gesture);
+    void onReleased(QObject* widget, const Gesture& gesture);
     void onLayerCells(const Gesture& gesture);
-    void onKey(int key);
+    void onKeyReleased(int key);
 
     Parts mParts;
     Idleness* mIdleness;
-    QTimer mDebounce;
-    QTimer mLayerDebounce;
+    QTimer mChangeTimer;
+    QTimer mLayersTimer;
     bool mToolActive = false;
 };
 

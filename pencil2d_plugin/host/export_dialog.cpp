@@ -15,40 +15,40 @@ namespace lampblack
 namespace
 {
 
-const QString PathKey = QStringLiteral("LastSavePath/ImageSequence");
+const QString PathSetting = QStringLiteral("LastSavePath/ImageSequence");
 
-template <class Widget> Widget* child(QDialog* dialog, const char* name)
+template <class Widget> Widget* findWidget(QDialog* dialog, const char* name)
 {
     return dialog->findChild<Widget*>(QLatin1String(name));
 }
 
-/// The only way to tell the dialog a path: it opens with the last one used. The artist's own comes back.
-class BorrowedPath
+/// The dialog opens with the last path used: there is no other way to set it. The original one is restored.
+class TemporaryPath
 {
 public:
-    BorrowedPath(QSettings* settings, const QString& path)
-        : mSettings(settings), mBefore(settings->value(PathKey))
+    TemporaryPath(QSettings* settings, const QString& path)
+        : mSettings(settings), mOriginal(settings->value(PathSetting))
     {
-        mSettings->setValue(PathKey, path);
+        mSettings->setValue(PathSetting, path);
     }
-    ~BorrowedPath()
+    ~TemporaryPath()
     {
-        if (mBefore.isValid())
-            mSettings->setValue(PathKey, mBefore);
+        if (mOriginal.isValid())
+            mSettings->setValue(PathSetting, mOriginal);
         else
-            mSettings->remove(PathKey);
+            mSettings->remove(PathSetting);
     }
-    Q_DISABLE_COPY_MOVE(BorrowedPath)
+    Q_DISABLE_COPY_MOVE(TemporaryPath)
 
 private:
     QSettings* mSettings;
-    QVariant mBefore;
+    QVariant mOriginal;
 };
 
-bool readDialog(QDialog* dialog, Exported* exported)
+bool readDialog(QDialog* dialog, ExportResult* exported)
 {
-    const auto* cameras = child<QComboBox>(dialog, "cameraCombo");
-    const auto* end = child<QSpinBox>(dialog, "endSpinBox");
+    const auto* cameras = findWidget<QComboBox>(dialog, "cameraCombo");
+    const auto* end = findWidget<QSpinBox>(dialog, "endSpinBox");
     if (cameras == nullptr || end == nullptr)
         return false;
     for (int i = 0; i < cameras->count(); ++i)
@@ -60,15 +60,15 @@ bool readDialog(QDialog* dialog, Exported* exported)
     return true;
 }
 
-/// Fill in and accept; false if the dialog is not the one we know or did not take it.
-bool orderFrames(QDialog* dialog, int first, int last, const QString& camera, const QString& path)
+/// Fill in the dialog and accept it. False if it is not the known dialog or does not accept the values.
+bool acceptFrames(QDialog* dialog, int first, int last, const QString& camera, const QString& path)
 {
-    auto* cameras = child<QComboBox>(dialog, "cameraCombo");
-    const auto* file = child<QLineEdit>(dialog, "fileEdit");
-    auto* start = child<QSpinBox>(dialog, "startSpinBox");
-    auto* end = child<QSpinBox>(dialog, "endSpinBox");
-    auto* transparency = child<QCheckBox>(dialog, "cbTransparency");
-    auto* keyframesOnly = child<QCheckBox>(dialog, "cbExportKeyframesOnly");
+    auto* cameras = findWidget<QComboBox>(dialog, "cameraCombo");
+    const auto* file = findWidget<QLineEdit>(dialog, "fileEdit");
+    auto* start = findWidget<QSpinBox>(dialog, "startSpinBox");
+    auto* end = findWidget<QSpinBox>(dialog, "endSpinBox");
+    auto* transparency = findWidget<QCheckBox>(dialog, "cbTransparency");
+    auto* keyframesOnly = findWidget<QCheckBox>(dialog, "cbExportKeyframesOnly");
     if (cameras == nullptr || file == nullptr || start == nullptr || end == nullptr ||
         transparency == nullptr)
         return false;
@@ -76,7 +76,7 @@ bool orderFrames(QDialog* dialog, int first, int last, const QString& camera, co
         return false;
     if (!camera.isEmpty())
         cameras->setCurrentIndex(cameras->findText(camera));
-    // The spin boxes hold each other in order: open the range, then close it.
+    // Each spin box limits the other: first widen the range, then narrow it.
     end->setMaximum(qMax(end->maximum(), last));
     start->setMaximum(qMax(start->maximum(), first));
     start->setValue(1);
@@ -102,43 +102,44 @@ ExportDialog::ExportDialog(const Parts& parts) : mParts(parts)
 {
 }
 
-Exported ExportDialog::open(const std::function<bool(QDialog*)>& answer)
+ExportResult ExportDialog::openDialog(const std::function<bool(QDialog*)>& answer)
 {
-    Exported exported;
+    ExportResult exported;
     QAction* action = mParts.action("actionExport_ImageSeq");
     if (action == nullptr)
     {
-        exported.fault = QStringLiteral("There is no image sequence export.");
+        exported.error = QStringLiteral("There is no image sequence export.");
         return exported;
     }
-    bool known = false;
-    bool taken = false;
-    const UnseenDialogs unseen(
+    bool isKnown = false;
+    bool isAccepted = false;
+    const UnseenDialogs dialogs(
         [&](QDialog* dialog)
         {
-            known = known || readDialog(dialog, &exported);
-            taken = taken || (known && answer(dialog));
+            isKnown = isKnown || readDialog(dialog, &exported);
+            isAccepted = isAccepted || (isKnown && answer(dialog));
         });
     action->trigger();
-    if (!unseen.complaints().isEmpty())
-        exported.fault = unseen.complaints().join(QLatin1Char(' '));
-    else if (!known)
-        exported.fault = QStringLiteral("The export dialog did not open, or is not the one we know.");
-    else if (!taken)
-        exported.fault = QStringLiteral("The export dialog did not take our path, range or camera.");
+    if (!dialogs.complaints().isEmpty())
+        exported.error = dialogs.complaints().join(QLatin1Char(' '));
+    else if (!isKnown)
+        exported.error = QStringLiteral("The export dialog did not open, or is not the one we know.");
+    else if (!isAccepted)
+        exported.error = QStringLiteral("The export dialog did not take our path, range or camera.");
     return exported;
 }
 
-Exported ExportDialog::look()
+ExportResult ExportDialog::inspect()
 {
-    return open([](QDialog*) { return true; });
+    return openDialog([](QDialog*) { return true; });
 }
 
-Exported ExportDialog::run(int first, int last, const QString& camera, const QString& directory)
+ExportResult ExportDialog::exportFrames(int first, int last, const QString& camera, const QString& directory)
 {
     const QString path = QDir(directory).filePath(QStringLiteral("frame.png"));
-    const BorrowedPath borrowed(&mSettings, path);
-    Exported exported = open([&](QDialog* dialog) { return orderFrames(dialog, first, last, camera, path); });
+    const TemporaryPath temporaryPath(&mSettings, path);
+    ExportResult exported =
+        openDialog([&](QDialog* dialog) { return acceptFrames(dialog, first, last, camera, path); });
     for (int frame = first; frame <= last; ++frame)
     {
         const QString file =

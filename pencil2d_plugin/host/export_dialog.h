@@ -1,4 +1,4 @@
-// Frames out of the program, by its own image sequence export, unseen.
+// Exports frames through Pencil2D's own image sequence export, without showing its dialog.
 #pragma once
 
 #include "host/parts.h"
@@ -13,18 +13,18 @@
 namespace lampblack
 {
 
-/// What the export dialog says and what came of it.
-struct Exported
+/// What the export dialog contains, and the result of the export.
+struct ExportResult
 {
-    QStringList cameras;      ///< first is the one Pencil2D offers
-    QVector<QSize> sizes;     ///< of the cameras' pictures, pixels
+    QStringList cameras;      ///< names; the first is Pencil2D's default
+    QVector<QSize> sizes;     ///< picture size of each camera, pixels
     int frameCount = 0;       ///< length of the animation
     QMap<int, QString> files; ///< PNG by frame; straight alpha
-    QString fault;            ///< what the program complained about; empty if all went well
+    QString error;            ///< error message; empty on success
 };
 
-/// Pencil2D's settings, shared with it in memory but not written by us at every change: that waits for
-/// the disk, and what we change we put back.
+/// Pencil2D's settings, shared with it in memory. Changes are not written to disk at once: that would block,
+/// and we restore what we change.
 class QuietSettings : public QSettings
 {
     Q_OBJECT
@@ -41,14 +41,14 @@ class ExportDialog
 public:
     explicit ExportDialog(const Parts& parts);
 
-    /// Open the dialog, read it, and cancel: 2 ms.
-    Exported look();
+    /// Open the dialog, read it, and cancel. Takes about 2 ms.
+    ExportResult inspect();
 
-    /// Frames first..last through `camera` (empty: the one offered) into files under `directory`, one each.
-    Exported run(int first, int last, const QString& camera, const QString& directory);
+    /// Export frames first..last of `camera` (empty: the default) to one file each in `directory`.
+    ExportResult exportFrames(int first, int last, const QString& camera, const QString& directory);
 
 private:
-    Exported open(const std::function<bool(QDialog*)>& answer);
+    ExportResult openDialog(const std::function<bool(QDialog*)>& answer);
 
     Parts mParts;
     QuietSettings mSettings;

@@ -10,9 +10,9 @@ namespace lampblack
 namespace
 {
 
-constexpr int BreathMs = 10;   ///< between chunks, for the artist's events
+constexpr int PauseMs = 10;    ///< between chunks, so that the artist's events are handled
 constexpr int RetryMs = 60;    ///< while the artist is busy
-constexpr double ChunkMs = 40; ///< what a chunk may hold the main thread; one frame may take longer
+constexpr double ChunkMs = 40; ///< how long a chunk may block the main thread, but it has at least one frame
 constexpr int MaxChunk = 8;
 constexpr int MaxFrame = 9999;
 constexpr int MaxSide = 4096; ///< the dialog's own limit
@@ -34,7 +34,7 @@ FrameQueue::FrameQueue(const Parts& parts, Idleness* idleness, QObject* parent)
 {
     mReaders.setMaxThreadCount(1);
     mTimer.setSingleShot(true);
-    connect(&mTimer, &QTimer::timeout, this, &FrameQueue::work);
+    connect(&mTimer, &QTimer::timeout, this, &FrameQueue::exportNext);
 }
 
 FrameQueue::~FrameQueue()
@@ -46,37 +46,37 @@ FrameQueue::~FrameQueue()
 void FrameQueue::request(int first, int last, const QStringList& layers)
 {
     for (int frame = qMax(1, first); frame <= qMin(last, MaxFrame); ++frame)
-        mWanted.insert({frame, layers}, 0);
-    if (!mWanted.isEmpty() && !mTimer.isActive())
+        mRequests.insert({frame, layers}, 0);
+    if (!mRequests.isEmpty() && !mTimer.isActive())
         mTimer.start(0);
 }
 
 void FrameQueue::cancel()
 {
-    mWanted.clear();
+    mRequests.clear();
     mNewest.clear();
     mTimer.stop();
 }
 
-void FrameQueue::work()
+void FrameQueue::exportNext()
 {
-    if (mWanted.isEmpty())
+    if (mRequests.isEmpty())
         return;
     if (mPlaying || !mIdleness->isIdle())
     {
         mTimer.start(RetryMs);
         return;
     }
-    const auto current = mWanted.lowerBound({mCurrentFrame, {}});
-    const bool isCurrent = current != mWanted.end() && current.key().first == mCurrentFrame;
-    const auto [first, layers] = isCurrent ? current.key() : mWanted.firstKey();
-    const int most = qBound(1, int(ChunkMs / mFrameMs), MaxChunk);
+    const auto current = mRequests.lowerBound({mCurrentFrame, {}});
+    const bool isCurrent = current != mRequests.end() && current.key().first == mCurrentFrame;
+    const auto [first, layers] = isCurrent ? current.key() : mRequests.firstKey();
+    const int maxFrames = qBound(1, int(ChunkMs / mFrameMs), MaxChunk);
     int last = first;
-    while (last - first + 1 < most && mWanted.contains({last + 1, layers}))
+    while (last - first + 1 < maxFrames && mRequests.contains({last + 1, layers}))
         ++last;
     exportChunk(first, last, layers);
-    if (!mWanted.isEmpty())
-        mTimer.start(BreathMs);
+    if (!mRequests.isEmpty())
+        mTimer.start(PauseMs);
 }
 
 void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
@@ -89,83 +89,83 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
     if (!mFolder.isValid() || !QDir().mkpath(folder))
     {
         for (int frame = first; frame <= last; ++frame)
-            fail({frame, layers}, mWanted.take({frame, layers}),
-                 QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
+            retryOrFail({frame, layers}, mRequests.take({frame, layers}),
+                        QStringLiteral("No temporary folder: %1").arg(mFolder.errorString()));
         return;
     }
 
-    Exported exported;
+    ExportResult exported;
     {
-        QVector<int> turned;
-        const UpdatesOff unseen(layers.isEmpty()
-                                    ? QVector<QWidget*>()
-                                    : QVector<QWidget*>{mParts.canvas, mParts.layerCells, mParts.trackCells});
+        QVector<int> clicked;
+        const UpdatesOff updatesOff(
+            layers.isEmpty() ? QVector<QWidget*>()
+                             : QVector<QWidget*>{mParts.canvas, mParts.layerCells, mParts.trackCells});
         if (!layers.isEmpty())
         {
             const QVector<bool> eyes = mRows.eyes(mLayers.size());
             for (int row = 0; row < mLayers.size(); ++row)
             {
-                const bool drawn =
+                const bool isDrawing =
                     mLayers[row].kind != Layer::Kind::Camera && mLayers[row].kind != Layer::Kind::Sound;
-                if (drawn && eyes[row] != layers.contains(mLayers[row].name))
-                    turned.append(row);
+                if (isDrawing && eyes[row] != layers.contains(mLayers[row].name))
+                    clicked.append(row);
             }
         }
-        for (const int row : qAsConst(turned))
+        for (const int row : qAsConst(clicked))
             mRows.clickEye(row);
-        exported = mDialog.run(first, last, mCamera, folder);
-        for (const int row : qAsConst(turned))
+        exported = mDialog.exportFrames(first, last, mCamera, folder);
+        for (const int row : qAsConst(clicked))
             mRows.clickEye(row);
     }
     mFrameMs = double(clock.elapsed()) / (last - first + 1);
 
     for (int frame = first; frame <= last; ++frame)
     {
-        const int failures = mWanted.take({frame, layers});
+        const int failures = mRequests.take({frame, layers});
         if (exported.files.contains(frame))
             readLater({frame, layers}, failures, exported.files.value(frame), mExports);
         else
-            fail({frame, layers}, failures, exported.fault);
+            retryOrFail({frame, layers}, failures, exported.error);
     }
-    Q_EMIT looked(exported);
+    Q_EMIT dialogRead(exported);
 }
 
-void FrameQueue::fail(const Wanted& wanted, int failures, const QString& details)
+void FrameQueue::retryOrFail(const Request& request, int failures, const QString& details)
 {
     constexpr int MaxAttempts = 3;
     if (failures + 1 < MaxAttempts)
     {
-        mWanted.insert(wanted, failures + 1);
+        mRequests.insert(request, failures + 1);
         if (!mTimer.isActive())
             mTimer.start(RetryMs);
         return;
     }
-    Q_EMIT failed(wanted.first,
-                  {QStringLiteral("Frame %1 could not be read from Pencil2D.").arg(wanted.first),
+    Q_EMIT failed(request.first,
+                  {QStringLiteral("Frame %1 could not be read from Pencil2D.").arg(request.first),
                    QStringLiteral("Save the project, then try again."), details});
 }
 
-void FrameQueue::readLater(const Wanted& wanted, int failures, const QString& path, quint64 number)
+void FrameQueue::readLater(const Request& request, int failures, const QString& path, quint64 number)
 {
     ++mReading;
-    mNewest.insert(wanted, number);
+    mNewest.insert(request, number);
     mReaders.start(
-        [this, wanted, failures, path, number]
+        [this, request, failures, path, number]
         {
             const QImage image = readPng(path);
             QFile::remove(path);
             QDir().rmdir(QFileInfo(path).path());
             QMetaObject::invokeMethod(
                 this,
-                [this, wanted, failures, image, number]
+                [this, request, failures, image, number]
                 {
                     --mReading;
-                    if (mNewest.value(wanted) != number)
+                    if (mNewest.value(request) != number)
                         return;
-                    mNewest.remove(wanted);
-                    const auto [frame, layers] = wanted;
+                    mNewest.remove(request);
+                    const auto [frame, layers] = request;
                     if (image.isNull())
-                        fail(wanted, failures, QStringLiteral("The exported PNG could not be read."));
+                        retryOrFail(request, failures, QStringLiteral("The exported PNG could not be read."));
                     else
                         Q_EMIT exported(frame, layers, image);
                 },

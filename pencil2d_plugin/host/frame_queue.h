@@ -1,4 +1,4 @@
-// Frames that were asked for, exported a few at a time while the artist's hands are off.
+// Exports requested frames, a few at a time while the artist is idle.
 #pragma once
 
 #include "host/export_dialog.h"
@@ -24,30 +24,30 @@ public:
     /// See Host::requestFrames().
     void request(int first, int last, const QStringList& layers);
     void cancel();
-    int pending() const { return mWanted.size() + mReading; }
+    int pending() const { return mRequests.size() + mReading; }
 
-    /// Frame that goes first among those wanted.
+    /// This frame is exported first.
     void setCurrentFrame(int frame) { mCurrentFrame = frame; }
-    /// Nothing is exported meanwhile.
+    /// Nothing is exported while the animation plays.
     void setPlaying(bool playing) { mPlaying = playing; }
     void setCamera(const QString& name) { mCamera = name; }
-    /// The layers top first, as they were last read: which rows to hide.
+    /// The layers, top first, as last read. Needed to hide the right rows.
     void setLayers(const QVector<Layer>& layers) { mLayers = layers; }
 
 Q_SIGNALS:
     void exported(int frame, const QStringList& layers, const QImage& image);
     void failed(int frame, const lampblack::UserError& error);
-    void looked(const lampblack::Exported& exported);
+    void dialogRead(const lampblack::ExportResult& exported);
 
 private:
-    void work();
-    using Wanted = QPair<int, QStringList>; ///< a frame, and its layers that are asked for
+    void exportNext();
+    using Request = QPair<int, QStringList>; ///< a frame and its layers to export
 
     void exportChunk(int first, int last, const QStringList& layers);
-    /// Reads the export in another thread; it failed as often before.
-    void readLater(const Wanted& wanted, int failures, const QString& path, quint64 number);
-    /// Wants the frame again, or gives it up.
-    void fail(const Wanted& wanted, int failures, const QString& details);
+    /// Read the exported file in another thread. `failures` is how often the request failed before.
+    void readLater(const Request& request, int failures, const QString& path, quint64 number);
+    /// Request the frame again, or emit failed().
+    void retryOrFail(const Request& request, int failures, const QString& details);
 
     Parts mParts;
     Idleness* mIdleness;
@@ -56,17 +56,17 @@ private:
     QTemporaryDir mFolder;
     QTimer mTimer;
     QThreadPool mReaders;
-    QMap<Wanted, int> mWanted; ///< how often it failed
+    QMap<Request, int> mRequests; ///< number of failures by request
     QVector<Layer> mLayers;
     QString mCamera;
-    QMap<Wanted, quint64> mNewest; ///< the number of the newest export
+    QMap<Request, quint64> mNewest; ///< the number of the newest export
     quint64 mExports = 0;
     int mReading = 0;
     int mCurrentFrame = 1;
-    double mFrameMs = 60; ///< what a frame costs, as last measured
+    double mFrameMs = 60; ///< time to export a frame, as last measured
     bool mPlaying = false;
 };
 
 } // namespace lampblack
 
-Q_DECLARE_METATYPE(lampblack::Exported)
+Q_DECLARE_METATYPE(lampblack::ExportResult)

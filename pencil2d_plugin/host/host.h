@@ -1,9 +1,9 @@
-// The drawing program as the rest of the plugin sees it. Everything that knows Pencil2D stands
-// behind this class: another version of it is another Host.
+// The interface of the drawing program for the rest of the plugin. Only classes behind it know Pencil2D.
+// Another version of Pencil2D can be supported by another Host.
 //
-// Frames of reference. The *canvas* is the lit picture's frame: the pixels of an exported frame, x
-// right, y down, origin at its top left corner (Pencil2D's own origin is the camera's centre).
-// *Widget* coordinates are the canvas widget's logical pixels. Frames count as Pencil2D counts: from 1.
+// Frames of reference. *Canvas* coordinates are pixels of an exported frame: x right, y down, origin at its
+// top left corner (Pencil2D's own origin is the camera's centre). *Widget* coordinates are logical pixels of
+// the canvas widget. Frames are numbered from 1, as in Pencil2D.
 #pragma once
 
 #include "user_error.h"
@@ -44,7 +44,7 @@ struct FrameExport
     int frame = 0;
     QImage image;             ///< Format_RGBA8888
     QTransform canvasToImage; ///< identity but under a moved camera
-    QStringList layers;       ///< as they were asked for
+    QStringList layers;       ///< as they were requested
 };
 
 /// From `first` to `last`, both included.
@@ -65,73 +65,73 @@ public:
         Panel,   ///< a page in the tool options
         Frames,  ///< frames can be exported
         Layers,  ///< layers can be named, and left out of an export
-        Deliver, ///< a layer of ours can be put into the project
+        Deliver, ///< deliverLayer() works
         View,    ///< canvasToWidget() is known
-        Undo,    ///< keys of undo reach us first
-        Project  ///< projectPath() and its signals
+        Undo,    ///< we get the keys of undo and redo first
+        Project  ///< projectPath() and its signals work
     };
     Q_ENUM(Ability)
 
     using QObject::QObject;
 
-    /// Whether this build of the drawing program lets us; whyNot() is one sentence for people.
+    /// Whether this version of the drawing program supports `ability`. If not, whyNot() is a sentence for
+    /// people.
     virtual bool can(Ability ability) const = 0;
     virtual QString whyNot(Ability ability) const = 0;
 
     // Places
     virtual QWidget* window() const = 0;
     virtual QWidget* canvas() const = 0;
-    /// A button like its neighbours, exclusive with the other tools. The action is checkable: checked
-    /// while the tool is in use; its icon, tooltip (with shortcut) and status tip are shown.
+    /// Add a tool button, exclusive with the other tools. The action is checkable, and checked while the tool
+    /// is in use. Its icon, tooltip (with shortcut) and status tip are shown.
     virtual void addTool(QAction* tool) = 0;
-    /// `panel` takes the place of the tool options while the tool is in use.
+    /// Show `panel` instead of the tool options while the tool is in use.
     virtual void setToolPanel(QWidget* panel) = 0;
     virtual void addDock(QDockWidget* dock) = 0;
-    /// An entry at the end of the Animation menu.
+    /// Add an entry at the end of the Animation menu.
     virtual void addAnimationAction(QAction* action) = 0;
     virtual void showStatus(const QString& text, int milliseconds = 0) = 0;
 
     // View
-    /// Canvas to widget; nothing while it cannot be known.
+    /// No value while it is not known.
     virtual std::optional<QTransform> canvasToWidget() const = 0;
     virtual QSize canvasSize() const = 0; ///< size of the exported frames, pixels
-    virtual QColor paper() const = 0;     ///< what is shown under transparent pixels
+    virtual QColor paper() const = 0;     ///< colour under transparent pixels
 
     // Time
     virtual int currentFrame() const = 0;
-    /// Steps there unless the animation plays; frames that the program cannot show are let be.
+    /// Does nothing while the animation plays, or if the program does not have the frame.
     virtual void goToFrame(int frame) = 0;
     virtual int frameCount() const = 0;
     virtual double framesPerSecond() const = 0;
     virtual bool isPlaying() const = 0;
-    virtual FrameRange loopRange() const = 0; ///< all frames while no range is set
+    virtual FrameRange loopRange() const = 0; ///< all frames if no range is set
 
     // Layers, top first
     virtual QVector<Layer> layers() const = 0;
     virtual void hideLayers(const QStringList& names) = 0;
 
-    /// Put a bitmap layer on top of all, in place of the topmost one of that name: the caller has made sure
-    /// that this one is ours. `pictures`: PNG files by frame, in the frame of an export; one that shows what
-    /// the one before shows is held, frames without one between or after them are blank. It happens once the
-    /// artist's hands are off and touches nothing else: the undo history, view, current layer and frame stay.
-    /// layerDelivered() or layerFailed() tells; a project opened meanwhile is left alone in silence. Pencil2D
-    /// does not count it as a change of the project.
+    /// Add a bitmap layer on top of all others. It replaces the topmost layer of that name: the caller has
+    /// made sure that Lampblack made it. `pictures` are PNG files by frame, in canvas coordinates. A picture
+    /// equal to the one before becomes a held frame; frames without a picture, but for those before the
+    /// first, are blank. It happens when the artist is idle. The undo history, view, current layer and frame
+    /// stay. Ends with layerDelivered() or layerFailed(), or without a signal if another project is opened
+    /// meanwhile. Pencil2D does not count it as a modification of the project.
     virtual void deliverLayer(const QString& name, const QMap<int, QString>& pictures) = 0;
 
     // Project
     virtual QString projectPath() const = 0; ///< absolute; empty while untitled
     virtual bool isModified() const = 0;
-    /// `mayLeave` is called before New, Open or a recent file puts another project in this one's place, and
-    /// may ask the artist; false keeps the project. A closing window says so itself: QEvent::Close.
+    /// `mayLeave` is called before New, Open or a recent file replaces the open project. It may ask the
+    /// artist; false keeps the project open. It is not called when the window closes: there is QEvent::Close.
     virtual void guardLeaving(const std::function<bool()>& mayLeave) = 0;
     virtual bool openProject(const QString& path) = 0;
-    /// Save the project where it is; false if it was not written.
+    /// Save the project to its path; false if it was not written.
     virtual bool saveProject() = 0;
 
-    /// Ask for frames first..last with only the named layers, hidden or not (empty: all visible). They come
-    /// by frameExported(), one or a few each time the artist is idle: never while a button is down or the
-    /// animation plays. Asking again before it came changes nothing. exportFailed() tells what cannot
-    /// be had.
+    /// Export frames first..last with only the named layers, hidden or not (empty: all visible ones).
+    /// frameExported() or exportFailed() is emitted for each, a few each time the artist is idle: never while
+    /// a button is down or the animation plays. A request for a frame that is still waiting changes nothing.
     virtual void requestFrames(int first, int last, const QStringList& layers = {}) = 0;
     virtual void cancelRequests() = 0;
     virtual int pendingRequests() const = 0;
@@ -142,18 +142,18 @@ Q_SIGNALS:
     void frameChanged(int frame);
     void frameCountChanged(int count);
     void playingChanged(bool playing);
-    /// A stroke, undo, paste or any other change ended; pixels of the current frame may differ.
+    /// A stroke, undo, paste or another change has ended. Pixels of the current frame may be different.
     void drawingChanged(int frame);
     void layersChanged();
     void layerDelivered(const QString& name);
     void layerFailed(const lampblack::UserError& error);
     void projectOpened(const QString& path); ///< also a new one: path empty
-    void projectSaved(const QString& path);  ///< path differs from before: saved as
+    void projectSaved(const QString& path);  ///< another path than before: "Save as"
     void frameExported(const lampblack::FrameExport& frame);
     void exportFailed(int frame, const lampblack::UserError& error);
 };
 
-/// The host for the program we were loaded into; null if it is none that we know.
+/// The host for the program that has loaded us; null if it is not supported.
 Host* createHost(QObject* parent);
 
 } // namespace lampblack

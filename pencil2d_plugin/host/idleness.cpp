@@ -30,7 +30,7 @@ bool Idleness::isIdle() const
 
 bool Idleness::eventFilter(QObject* watched, QEvent* event)
 {
-    // What we send ourselves is not the artist's; what comes from the window system is, even now.
+    // Events that we send ourselves are not the artist's; those of the window system always are.
     if (mWork > 0 && !event->spontaneous())
         return false;
     switch (event->type())

@@ -1,4 +1,4 @@
-// Whether the artist's hands are off, so that work on Qt's main thread goes unnoticed.
+// Whether the artist is idle, so that work in the main thread disturbs nobody.
 #pragma once
 
 #include <QElapsedTimer>
@@ -8,7 +8,7 @@
 namespace lampblack
 {
 
-/// From a button's press to its release, in the widget's coordinates.
+/// From the press to the release of a button, in widget coordinates.
 struct Gesture
 {
     QPoint from;
@@ -23,14 +23,13 @@ class Idleness : public QObject
 public:
     explicit Idleness(QObject* parent);
 
-    /// No button or pen is down, no menu or dialog is open, nothing was typed just now, and none of our
-    /// own work is under way.
+    /// No button or pen is down, no menu or dialog is open, no key was pressed just now, and no Work exists.
     bool isIdle() const;
 
     /// No button or pen is down.
     bool areHandsOff() const;
 
-    /// While it lives, we drive the program ourselves: isIdle() is false and what we click is not told.
+    /// Exists while we operate the program ourselves: isIdle() is false, and our own clicks emit no signals.
     class Work
     {
     public:
@@ -46,8 +45,8 @@ public:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-    void released(QObject* where, const lampblack::Gesture& gesture); ///< a button or pen went up
-    void keyReleased(int key);                                        ///< without Ctrl, Alt or Meta
+    void released(QObject* widget, const lampblack::Gesture& gesture); ///< a button or pen was released
+    void keyReleased(int key);                                         ///< without Ctrl, Alt or Meta
 
 private:
     Gesture mGesture;

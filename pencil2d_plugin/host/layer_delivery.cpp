@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr int RetryMs = 60;      ///< while the artist is busy
-constexpr int MaxSide = 4096;    ///< of a picture
-constexpr int MaxCanvas = 16384; ///< of a picture brought back from under a camera
+constexpr int MaxSide = 4096;    ///< of a picture, pixels
+constexpr int MaxCanvas = 16384; ///< of a picture transformed back to the canvas, pixels
 
 QImage readPng(const QString& path)
 {
@@ -29,8 +29,8 @@ QImage readPng(const QString& path)
     return reader.read().convertToFormat(QImage::Format_ARGB32);
 }
 
-/// The picture as it lies on the canvas, whatever the camera; a null image if it would be too large.
-Cel celOf(const QImage& picture, const QTransform& view)
+/// The picture on the canvas, without the camera's view. A null image if it would be too large.
+Cel celFromPicture(const QImage& picture, const QTransform& view)
 {
     const QPoint origin = originIn(picture.size()).toPoint();
     Cel cel = cut(picture, origin);
@@ -59,39 +59,39 @@ QByteArray digestOf(const Cel& cel)
            ',' + QByteArray::number(cel.image.width());
 }
 
-/// Returns what went wrong; empty if nothing did.
+/// Returns an error message, empty on success.
 QString writeLayer(ProjectFile* file, const QString& name, const QMap<int, QString>& pictures,
                    const CameraKeys& camera, int frameCount)
 {
-    QString full = QStringLiteral("The key frames cannot be written to the temporary folder.");
-    QImage nothing(1, 1, QImage::Format_ARGB32);
-    nothing.fill(Qt::transparent);
-    const Cel blank = cut(nothing, QPoint());
-    QByteArray shown; // by the frame before
+    QString writeError = QStringLiteral("The key frames cannot be written to the temporary folder.");
+    QImage empty(1, 1, QImage::Format_ARGB32);
+    empty.fill(Qt::transparent);
+    const Cel blank = cut(empty, QPoint());
+    QByteArray lastDigest; // of the frame before
     int next = pictures.isEmpty() ? 1 : pictures.firstKey();
     for (auto picture = pictures.cbegin(); picture != pictures.cend(); ++picture)
     {
         if (picture.key() > next && !file->addKey(next, blank))
-            return full;
+            return writeError;
         if (picture.key() > next)
-            shown.clear();
+            lastDigest.clear();
         next = picture.key() + 1;
         const QImage image = readPng(picture.value());
         if (image.isNull())
             return QStringLiteral("%1 cannot be read.").arg(picture.value());
-        const Cel cel = celOf(image, cameraAt(camera, picture.key()));
+        const Cel cel = celFromPicture(image, cameraAt(camera, picture.key()));
         if (cel.image.isNull())
             return QStringLiteral("Frame %1 would be too large on the canvas.").arg(picture.key());
         const QByteArray digest = digestOf(cel);
-        if (digest == shown)
+        if (digest == lastDigest)
             continue;
-        shown = digest;
+        lastDigest = digest;
         if (!file->addKey(picture.key(), cel))
-            return full;
+            return writeError;
     }
     if (next <= frameCount && !file->addKey(next, blank))
-        return full;
-    return file->finish(name) ? QString() : full;
+        return writeError;
+    return file->finish(name) ? QString() : writeError;
 }
 
 QStringList namesOf(const QVector<Layer>& layers)
@@ -110,7 +110,7 @@ LayerDelivery::LayerDelivery(const Parts& parts, Idleness* idleness, QObject* pa
 {
     mWriters.setMaxThreadCount(1);
     mTimer.setSingleShot(true);
-    connect(&mTimer, &QTimer::timeout, this, &LayerDelivery::takeIn);
+    connect(&mTimer, &QTimer::timeout, this, &LayerDelivery::importWhenIdle);
 }
 
 LayerDelivery::~LayerDelivery()
@@ -127,25 +127,25 @@ void LayerDelivery::deliver(const QString& name, const QMap<int, QString>& pictu
     const QString folder = mFolder.filePath(QString::number(mNumber));
     if (!mFolder.isValid())
     {
-        fail(mFolder.errorString());
+        reportFailure(mFolder.errorString());
         return;
     }
     mWriters.start(
         [this, name, pictures, camera, frameCount, folder, number = mNumber]
         {
             ProjectFile file(folder);
-            const QString fault = writeLayer(&file, name, pictures, camera, frameCount);
+            const QString error = writeLayer(&file, name, pictures, camera, frameCount);
             QMetaObject::invokeMethod(
                 this,
-                [this, fault, number, path = file.path()]
+                [this, error, number, path = file.path()]
                 {
                     if (number != mNumber)
                         return;
                     mProject = path;
-                    if (fault.isEmpty())
-                        takeIn();
+                    if (error.isEmpty())
+                        importWhenIdle();
                     else
-                        fail(fault);
+                        reportFailure(error);
                 },
                 Qt::QueuedConnection);
         });
@@ -157,7 +157,7 @@ void LayerDelivery::cancel()
     mTimer.stop();
 }
 
-void LayerDelivery::takeIn()
+void LayerDelivery::importWhenIdle()
 {
     if (mParts.window == nullptr)
         return;
@@ -166,49 +166,49 @@ void LayerDelivery::takeIn()
         mTimer.start(RetryMs);
         return;
     }
-    const QString fault = replace(mProject);
-    if (fault.isEmpty())
+    const QString error = replaceLayer(mProject);
+    if (error.isEmpty())
         Q_EMIT delivered(mName);
     else
-        fail(fault);
+        reportFailure(error);
 }
 
-QString LayerDelivery::replace(const QString& project)
+QString LayerDelivery::replaceLayer(const QString& project)
 {
     const Idleness::Work work(mIdleness);
-    const UpdatesOff unseen({mParts.window});
+    const UpdatesOff updatesOff({mParts.window});
     const QStringList before = namesOf(mRows.read());
-    const int artists = mRows.currentRow();
-    if (before.isEmpty() || artists < 0)
+    const int currentBefore = mRows.currentRow();
+    if (before.isEmpty() || currentBefore < 0)
         return QStringLiteral("The list of layers does not answer.");
 
-    QString fault = importLayer(mParts, project, mName);
+    QString error = importLayer(mParts, project, mName);
     const QStringList after = namesOf(mRows.read());
     if (after.mid(1) != before)
-        return fault.isEmpty() ? QStringLiteral("The layers are not as they should be: %1")
+        return error.isEmpty() ? QStringLiteral("The layers are not as they should be: %1")
                                      .arg(after.join(QStringLiteral(", ")))
-                               : fault;
-    // Only now the old one goes: a layer that failed to come has cost nothing.
+                               : error;
+    // The old layer is removed only now, so that nothing is lost if the import fails.
     const int old = before.indexOf(mName);
-    int current = artists == old ? 0 : artists + 1;
+    int current = currentBefore == old ? 0 : currentBefore + 1;
     if (old >= 0)
     {
         if (!mRows.remove(old + 1, mName))
-            fault = QStringLiteral("The layer made before could not be removed.");
-        else if (old < artists)
+            error = QStringLiteral("The layer made before could not be removed.");
+        else if (old < currentBefore)
             --current;
-        if (fault.isEmpty() && !mRows.rename(0, mName))
-            fault = QStringLiteral("The new layer could not be named.");
+        if (error.isEmpty() && !mRows.rename(0, mName))
+            error = QStringLiteral("The new layer could not be named.");
     }
     mRows.select(current);
-    // Pencil2D says nothing of layers that came by import.
+    // Pencil2D emits no signal for imported layers.
     const int count = mRows.read().size();
     QMetaObject::invokeMethod(mParts.layers, "layerCountChanged", Q_ARG(int, count));
     QMetaObject::invokeMethod(mParts.layers, "currentLayerChanged", Q_ARG(int, count - 1 - current));
-    return fault;
+    return error;
 }
 
-void LayerDelivery::fail(const QString& details)
+void LayerDelivery::reportFailure(const QString& details)
 {
     Q_EMIT failed({QStringLiteral("The layer \"%1\" could not be put into the project.").arg(mName),
                    QStringLiteral("Save the project, then try again."), details});

@@ -1,4 +1,4 @@
-// Pictures of frames, made a layer of the open project.
+// Makes a layer of the open project from pictures of frames.
 #pragma once
 
 #include "host/camera_path.h"
@@ -13,8 +13,7 @@
 namespace lampblack
 {
 
-/// Prepares the layer in another thread, then has Pencil2D take it in, in one go, once the artist's hands
-/// are off.
+/// Writes the layer to a file in another thread. When the artist is idle, Pencil2D imports it in one step.
 class LayerDelivery : public QObject
 {
     Q_OBJECT
@@ -23,12 +22,12 @@ public:
     LayerDelivery(const Parts& parts, Idleness* idleness, QObject* parent);
     ~LayerDelivery() override;
 
-    /// See Host::deliverLayer(); `camera` is what the frames were exported through.
+    /// See Host::deliverLayer(). `camera` is the camera of the export.
     void deliver(const QString& name, const QMap<int, QString>& pictures, const CameraKeys& camera,
                  int frameCount);
     void cancel();
 
-    /// Nothing is taken in meanwhile.
+    /// Nothing is imported while the animation plays.
     void setPlaying(bool playing) { mPlaying = playing; }
 
 Q_SIGNALS:
@@ -36,18 +35,18 @@ Q_SIGNALS:
     void failed(const lampblack::UserError& error);
 
 private:
-    void takeIn();
-    QString replace(const QString& project);
-    void fail(const QString& details);
+    void importWhenIdle();
+    QString replaceLayer(const QString& project);
+    void reportFailure(const QString& details);
 
     Parts mParts;
     Idleness* mIdleness;
     LayerRows mRows;
-    QTemporaryDir mFolder; ///< lives as long as we do: Pencil2D may read key frames from it again
+    QTemporaryDir mFolder; ///< kept until the end: Pencil2D may read key frames from it again
     QThreadPool mWriters;
     QTimer mTimer;
     QString mName;
-    QString mProject; ///< ready to be taken in
+    QString mProject; ///< path of the file to import
     quint64 mNumber = 0;
     bool mPlaying = false;
 };

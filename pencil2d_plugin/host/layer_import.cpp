@@ -15,42 +15,42 @@ namespace lampblack
 namespace
 {
 
-constexpr int PatienceMs = 10000; ///< for the dialog to open, not for the import
+constexpr int OpenTimeoutMs = 10000; ///< for the dialog to open, not for the import
 
-/// The folders that Pencil2D's file dialogs open in: ours is not to be the next.
-class BorrowedFolders
+/// Restores the folders that Pencil2D's file dialogs open in.
+class TemporaryFolders
 {
 public:
-    BorrowedFolders()
+    TemporaryFolders()
     {
         const QStringList keys = mSettings.allKeys();
         for (const QString& key : keys)
         {
             if (isFolder(key))
-                mBefore.insert(key, mSettings.value(key));
+                mOriginals.insert(key, mSettings.value(key));
         }
     }
-    ~BorrowedFolders()
+    ~TemporaryFolders()
     {
         const QStringList keys = mSettings.allKeys();
         for (const QString& key : keys)
         {
-            if (isFolder(key) && !mBefore.contains(key))
+            if (isFolder(key) && !mOriginals.contains(key))
                 mSettings.remove(key);
         }
-        for (auto folder = mBefore.cbegin(); folder != mBefore.cend(); ++folder)
+        for (auto folder = mOriginals.cbegin(); folder != mOriginals.cend(); ++folder)
             mSettings.setValue(folder.key(), folder.value());
     }
-    Q_DISABLE_COPY_MOVE(BorrowedFolders)
+    Q_DISABLE_COPY_MOVE(TemporaryFolders)
 
 private:
     static bool isFolder(const QString& key) { return key.startsWith(QLatin1String("LastOpenPath/")); }
 
     QuietSettings mSettings;
-    QMap<QString, QVariant> mBefore;
+    QMap<QString, QVariant> mOriginals;
 };
 
-void choose(QFileDialog* dialog, const QString& path)
+void chooseFile(QFileDialog* dialog, const QString& path)
 {
     dialog->selectFile(path);
     if (auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit")))
@@ -58,7 +58,7 @@ void choose(QFileDialog* dialog, const QString& path)
     QMetaObject::invokeMethod(dialog, "accept", Qt::DirectConnection);
 }
 
-bool click(QDialog* dialog, const char* name)
+bool clickButton(QDialog* dialog, const char* name)
 {
     auto* button = dialog->findChild<QAbstractButton*>(QLatin1String(name));
     if (button == nullptr || !button->isEnabled())
@@ -67,18 +67,18 @@ bool click(QDialog* dialog, const char* name)
     return true;
 }
 
-/// Go through the dialog of imports; false if it is not the one we know or does not take our file.
-bool orderLayer(QDialog* dialog, const QString& layer)
+/// Operate the import dialog. False if it is not the known dialog or does not accept our file.
+bool acceptLayer(QDialog* dialog, const QString& layer)
 {
     auto* list = dialog->findChild<QListWidget*>(QStringLiteral("lwLayers"));
-    if (list == nullptr || !click(dialog, "btnSelectFile"))
+    if (list == nullptr || !clickButton(dialog, "btnSelectFile"))
         return false;
     const auto found = list->findItems(layer, Qt::MatchExactly);
     if (found.size() != 1)
         return false;
     list->clearSelection();
     found.first()->setSelected(true);
-    return click(dialog, "btnImportLayers") && click(dialog, "btnClose");
+    return clickButton(dialog, "btnImportLayers") && clickButton(dialog, "btnClose");
 }
 
 } // namespace
@@ -88,35 +88,35 @@ QString importLayer(const Parts& parts, const QString& project, const QString& l
     QAction* action = parts.action("actionImportLayers_from_pclx");
     if (action == nullptr)
         return QStringLiteral("There is no import of layers.");
-    const BorrowedFolders borrowed;
-    bool opened = false;
-    bool ordered = false;
+    const TemporaryFolders temporaryFolders;
+    bool isOpened = false;
+    bool isAccepted = false;
     QEventLoop wait;
-    const UnseenDialogs unseen(
+    const UnseenDialogs dialogs(
         [&](QDialog* dialog)
         {
             if (auto* files = qobject_cast<QFileDialog*>(dialog))
             {
-                choose(files, project);
+                chooseFile(files, project);
                 return;
             }
-            if (opened)
+            if (isOpened)
                 return;
-            opened = true;
-            ordered = orderLayer(dialog, layer);
+            isOpened = true;
+            isAccepted = acceptLayer(dialog, layer);
             wait.quit();
         });
     action->trigger();
-    if (!opened)
+    if (!isOpened)
     {
-        QTimer::singleShot(PatienceMs, &wait, &QEventLoop::quit);
+        QTimer::singleShot(OpenTimeoutMs, &wait, &QEventLoop::quit);
         wait.exec(QEventLoop::ExcludeUserInputEvents);
     }
-    if (!unseen.complaints().isEmpty())
-        return unseen.complaints().join(QLatin1Char(' '));
-    if (!opened)
+    if (!dialogs.complaints().isEmpty())
+        return dialogs.complaints().join(QLatin1Char(' '));
+    if (!isOpened)
         return QStringLiteral("The import dialog did not open.");
-    return ordered ? QString() : QStringLiteral("The import dialog did not take our file or layer.");
+    return isAccepted ? QString() : QStringLiteral("The import dialog did not take our file or layer.");
 }
 
 } // namespace lampblack

@@ -1,4 +1,4 @@
-// A layer into the open project, by its own import of layers, unseen.
+// Imports a layer through Pencil2D's own import dialog, without showing it.
 #pragma once
 
 #include "host/parts.h"
@@ -6,8 +6,8 @@
 namespace lampblack
 {
 
-/// Import the layer `layer` of the project file `project`, on top of all. The current layer and the undo
-/// history stay. Returns what went wrong; empty if nothing did. Blocks for as long as Pencil2D reads.
+/// Import the layer `layer` of the project file `project` on top of all others. The current layer and the
+/// undo history stay. Returns an error message, empty on success. Blocks while Pencil2D reads the file.
 QString importLayer(const Parts& parts, const QString& project, const QString& layer);
 
 } // namespace lampblack

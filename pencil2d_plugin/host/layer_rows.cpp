@@ -26,15 +26,15 @@ constexpr int IconReach = 5; ///< each kind has its own place, a few pixels from
 constexpr int MaxRows = 500;
 const QPoint EyeCentre(EyeX, 8);
 
-/// Scrolls the list while it lives, then back to where the artist left it.
-class Scrolled
+/// Scrolls the list to a row while it exists, then back.
+class ScrollToRow
 {
 public:
-    Scrolled(QWidget* cells, int row) : mCells(cells)
+    ScrollToRow(QWidget* cells, int row) : mCells(cells)
     {
         QMetaObject::invokeMethod(cells, "vScrollChange", Qt::DirectConnection, Q_ARG(int, row));
     }
-    ~Scrolled()
+    ~ScrollToRow()
     {
         int offset = 0;
         const auto bars = mCells->window()->findChildren<QScrollBar*>();
@@ -46,7 +46,7 @@ public:
         }
         QMetaObject::invokeMethod(mCells, "vScrollChange", Qt::DirectConnection, Q_ARG(int, offset));
     }
-    Q_DISABLE_COPY_MOVE(Scrolled)
+    Q_DISABLE_COPY_MOVE(ScrollToRow)
 
 private:
     QWidget* mCells;
@@ -63,11 +63,11 @@ int difference(QRgb a, QRgb b)
     return std::abs(qRed(a) - qRed(b)) + std::abs(qGreen(a) - qGreen(b)) + std::abs(qBlue(a) - qBlue(b));
 }
 
-/// Mean difference between an icon on its row's ground and the place where it may be drawn.
-double misfit(const QImage& picture, const QImage& icon, const QPoint& at)
+/// Mean difference between the icon on the row's background colour and the row's pixels at `at`.
+double iconDifference(const QImage& rowImage, const QImage& icon, const QPoint& at)
 {
     QImage expected(icon.size(), QImage::Format_RGB32);
-    expected.fill(picture.pixel(1, RowHeight / 2));
+    expected.fill(rowImage.pixel(1, RowHeight / 2));
     QPainter(&expected).drawImage(0, 0, icon);
     qint64 sum = 0;
     for (int y = 0; y < icon.height(); ++y)
@@ -75,9 +75,9 @@ double misfit(const QImage& picture, const QImage& icon, const QPoint& at)
         for (int x = 0; x < icon.width(); ++x)
         {
             const QPoint there = at + QPoint(x, y);
-            if (!picture.valid(there))
+            if (!rowImage.valid(there))
                 return 1000;
-            sum += difference(expected.pixel(x, y), picture.pixel(there));
+            sum += difference(expected.pixel(x, y), rowImage.pixel(there));
         }
     }
     return double(sum) / qMax(1, icon.width() * icon.height());
@@ -105,9 +105,9 @@ UpdatesOff::~UpdatesOff()
     }
 }
 
-QImage LayerRows::picture(int row) const
+QImage LayerRows::renderRow(int row) const
 {
-    const Scrolled scrolled(mParts.layerCells, row);
+    const ScrollToRow scroll(mParts.layerCells, row);
     QImage image(mParts.layerCells->width(), RowHeight, QImage::Format_RGB32);
     image.fill(Qt::magenta);
     mParts.layerCells->render(&image, QPoint(), QRegion(0, RowHeight, image.width(), RowHeight),
@@ -115,23 +115,23 @@ QImage LayerRows::picture(int row) const
     return image;
 }
 
-void LayerRows::press(int row, int x) const
+void LayerRows::clickAt(int row, int x) const
 {
-    const Scrolled scrolled(mParts.layerCells, row);
+    const ScrollToRow scroll(mParts.layerCells, row);
     const QPoint at(x, RowHeight + RowHeight / 2);
-    // Always the pair: a lone release drops the layer that was last pressed onto this row.
+    // Always both: a release alone would drop the layer that was last pressed onto this row.
     sendMouse(mParts.layerCells, QEvent::MouseButtonPress, at, Qt::LeftButton);
     sendMouse(mParts.layerCells, QEvent::MouseButtonRelease, at, Qt::NoButton);
 }
 
 void LayerRows::clickEye(int row) const
 {
-    press(row, EyeX);
+    clickAt(row, EyeX);
 }
 
 void LayerRows::select(int row) const
 {
-    press(row, NameX);
+    clickAt(row, NameX);
 }
 
 int LayerRows::currentRow() const
@@ -140,7 +140,7 @@ int LayerRows::currentRow() const
     const QRgb base = QApplication::palette().color(QPalette::Base).rgb();
     for (int row = 0; row < MaxRows; ++row)
     {
-        const QRgb ground = picture(row).pixel(1, RowHeight / 2);
+        const QRgb ground = renderRow(row).pixel(1, RowHeight / 2);
         if (difference(ground, highlight) < difference(ground, base))
             return row;
     }
@@ -149,7 +149,7 @@ int LayerRows::currentRow() const
 
 QVector<bool> LayerRows::eyes(int count) const
 {
-    // Under "current layer only" every other eye is drawn shut; look while all layers are shown.
+    // With "current layer only" all other eyes are drawn closed, so show all layers meanwhile.
     QAction* onlyCurrent = mParts.action("actionVisibilityCurrentLayerOnly");
     QAction* all = mParts.action("actionVisibilityAll");
     const bool switched = onlyCurrent != nullptr && all != nullptr && onlyCurrent->isChecked();
@@ -160,7 +160,7 @@ QVector<bool> LayerRows::eyes(int count) const
     const QRgb shut = QApplication::palette().color(QPalette::Base).rgb();
     QVector<bool> eyes;
     for (int row = 0; row < count; ++row)
-        eyes.append(difference(picture(row).pixel(EyeCentre), shut) > difference(open, shut) / 4);
+        eyes.append(difference(renderRow(row).pixel(EyeCentre), shut) > difference(open, shut) / 4);
 
     if (switched)
         onlyCurrent->trigger();
@@ -169,7 +169,7 @@ QVector<bool> LayerRows::eyes(int count) const
 
 void LayerRows::openProperties(int row) const
 {
-    const Scrolled scrolled(mParts.layerCells, row);
+    const ScrollToRow scroll(mParts.layerCells, row);
     sendMouse(mParts.layerCells, QEvent::MouseButtonDblClick, QPoint(NameX, RowHeight + RowHeight / 2),
               Qt::LeftButton);
 }
@@ -177,7 +177,7 @@ void LayerRows::openProperties(int row) const
 QString LayerRows::nameAt(int row, bool* isCamera) const
 {
     QString name;
-    const UnseenDialogs unseen(
+    const UnseenDialogs dialogs(
         [&](QDialog* dialog)
         {
             if (const auto* input = qobject_cast<QInputDialog*>(dialog))
@@ -199,21 +199,21 @@ bool LayerRows::remove(int row, const QString& name) const
     if (action == nullptr || nameAt(row, &isCamera) != name || isCamera)
         return false;
     select(row);
-    // What is deleted is whatever is current: see that it is this one, and that the question is about it.
+    // The current layer is deleted: make sure that it is this one, and that the question is about it.
     if (currentRow() != row)
         return false;
     bool asked = false;
-    const UnseenDialogs unseen([](QDialog*) {},
-                               [&](const QString& question) { return asked = question.contains(name); });
+    const UnseenDialogs dialogs([](QDialog*) {},
+                                [&](const QString& question) { return asked = question.contains(name); });
     action->trigger();
-    return asked && unseen.complaints().isEmpty();
+    return asked && dialogs.complaints().isEmpty();
 }
 
 bool LayerRows::rename(int row, const QString& name) const
 {
     bool isCamera = false;
     {
-        const UnseenDialogs unseen(
+        const UnseenDialogs dialogs(
             [&](QDialog* dialog)
             {
                 if (auto* input = qobject_cast<QInputDialog*>(dialog))
@@ -227,15 +227,15 @@ bool LayerRows::rename(int row, const QString& name) const
     return nameAt(row, &isCamera) == name;
 }
 
-Layer::Kind LayerRows::kindOf(const QImage& picture) const
+Layer::Kind LayerRows::recogniseKind(const QImage& rowImage) const
 {
     static const std::array<std::pair<const char*, Layer::Kind>, 4> Icons{
         {{":/icons/layer-bitmap.png", Layer::Kind::Bitmap},
          {":/icons/layer-vector.png", Layer::Kind::Vector},
          {":/icons/layer-sound.png", Layer::Kind::Sound},
          {":/icons/layer-camera.png", Layer::Kind::Camera}}};
-    constexpr double Alike = 60;
-    double best = Alike;
+    constexpr double MaxDifference = 60;
+    double best = MaxDifference;
     Layer::Kind kind = Layer::Kind::Unknown;
     for (const auto& [path, candidate] : Icons)
     {
@@ -243,7 +243,7 @@ Layer::Kind LayerRows::kindOf(const QImage& picture) const
         for (int shift = 0; shift < IconReach * IconReach; ++shift)
         {
             const QPoint at(IconX + shift % IconReach, shift / IconReach);
-            const double fit = misfit(picture, icon, at);
+            const double fit = iconDifference(rowImage, icon, at);
             if (fit < best)
             {
                 best = fit;
@@ -256,7 +256,7 @@ Layer::Kind LayerRows::kindOf(const QImage& picture) const
 
 QVector<Layer> LayerRows::read() const
 {
-    const UpdatesOff unseen({mParts.window});
+    const UpdatesOff updatesOff({mParts.window});
     const int current = currentRow();
     if (current < 0)
         return {};
@@ -269,7 +269,7 @@ QVector<Layer> LayerRows::read() const
         layer.name = nameAt(row, &isCamera);
         if (layer.name.isNull())
             break;
-        layer.kind = isCamera ? Layer::Kind::Camera : kindOf(picture(row));
+        layer.kind = isCamera ? Layer::Kind::Camera : recogniseKind(renderRow(row));
         layers.append(layer);
     }
     select(current);

@@ -1,4 +1,4 @@
-// The list of layers beside the time line, read and clicked as the artist would.
+// Reads and operates the list of layers beside the timeline, as the artist would.
 #pragma once
 
 #include "host/parts.h"
@@ -6,39 +6,39 @@
 namespace lampblack
 {
 
-/// Rows count from the top, 0. Pencil2D's own layer index counts from the bottom.
+/// Rows are numbered from the top, from 0. Pencil2D's own layer index counts from the bottom.
 class LayerRows
 {
 public:
     explicit LayerRows(const Parts& parts) : mParts(parts) {}
 
-    /// All layers, top first. Opens each layer's properties, unseen, and comes back to the row that was
-    /// current: some 3 ms a layer. Empty if the list does not answer as it should.
+    /// All layers, top first. Opens the properties dialog of each layer without showing it, and restores the
+    /// current row. Takes about 3 ms a layer. Empty if the list is not the known one.
     QVector<Layer> read() const;
 
-    /// Which of `count` layers have an open eye.
+    /// Whether each of `count` layers is visible (has an open eye).
     QVector<bool> eyes(int count) const;
     void clickEye(int row) const;
 
-    int currentRow() const; ///< -1 if none can be made out
+    int currentRow() const; ///< -1 if it is not known
     void select(int row) const;
 
-    /// Delete the layer of this row. False, with nothing done, if it is not called `name` or the program
-    /// does not do it. A layer that is gone cannot be had back.
+    /// Delete the layer of this row. False if it is not called `name` or the program does not delete it.
+    /// Cannot be undone.
     bool remove(int row, const QString& name) const;
     bool rename(int row, const QString& name) const;
 
 private:
-    QImage picture(int row) const;
-    void press(int row, int x) const;
+    QImage renderRow(int row) const;
+    void clickAt(int row, int x) const;
     void openProperties(int row) const;
     QString nameAt(int row, bool* isCamera) const;
-    Layer::Kind kindOf(const QImage& picture) const;
+    Layer::Kind recogniseKind(const QImage& rowImage) const;
 
     Parts mParts;
 };
 
-/// Nobody sees what happens to these widgets while it lives.
+/// While it exists, these widgets are not repainted.
 class UpdatesOff
 {
 public:

@@ -7,7 +7,7 @@ namespace lampblack
 
 namespace
 {
-constexpr const char* RecentFiles = "RecentFileMenu";
+constexpr const char* RecentFilesClass = "RecentFileMenu";
 }
 
 LeaveGuard::LeaveGuard(const Parts& parts, QObject* parent) : QObject(parent), mParts(parts)
@@ -21,18 +21,18 @@ LeaveGuard::LeaveGuard(const Parts& parts, QObject* parent) : QObject(parent), m
         parts.window == nullptr ? nullptr : parts.window->findChild<QMenu*>(QStringLiteral("menuFile"));
     if (file == nullptr)
         return;
-    guard(file);
+    guardMenu(file);
     const auto entries = file->actions();
     for (const QAction* entry : entries)
     {
-        if (entry->menu() != nullptr && isClass(entry->menu(), RecentFiles))
-            guard(entry->menu());
+        if (entry->menu() != nullptr && isClass(entry->menu(), RecentFilesClass))
+            guardMenu(entry->menu());
     }
 }
 
 LeaveGuard::~LeaveGuard()
 {
-    restore();
+    restoreActions();
 }
 
 bool LeaveGuard::eventFilter(QObject*, QEvent* event)
@@ -40,11 +40,11 @@ bool LeaveGuard::eventFilter(QObject*, QEvent* event)
     return event->type() == QEvent::Shortcut && mMayLeave && !mMayLeave();
 }
 
-void LeaveGuard::guard(QMenu* menu)
+void LeaveGuard::guardMenu(QMenu* menu)
 {
     connect(menu, &QMenu::aboutToShow, this, [this, menu] { replace(menu); });
-    // An entry is triggered just after its menu has gone.
-    connect(menu, &QMenu::aboutToHide, this, &LeaveGuard::restore, Qt::QueuedConnection);
+    // Queued, because an entry is triggered just after its menu is hidden.
+    connect(menu, &QMenu::aboutToHide, this, &LeaveGuard::restoreActions, Qt::QueuedConnection);
 }
 
 QVector<QAction*> LeaveGuard::leavingActions(const QMenu& menu) const
@@ -53,9 +53,9 @@ QVector<QAction*> LeaveGuard::leavingActions(const QMenu& menu) const
     const auto actions = menu.actions();
     for (QAction* action : actions)
     {
-        if (isClass(&menu, RecentFiles))
+        if (isClass(&menu, RecentFilesClass))
         {
-            if (action->isSeparator()) // below it the list is cleared
+            if (action->isSeparator()) // the entry below it clears the list
                 break;
             leaving << action;
         }
@@ -74,7 +74,7 @@ void LeaveGuard::replace(QMenu* menu)
     {
         if (!original->isVisible())
             continue;
-        // What an action does cannot be held up, so another stands in its place while the menu is open.
+        // The effect of an action cannot be stopped, so another action replaces it while the menu is open.
         auto* standIn = new QAction(original->icon(), original->text(), menu);
         standIn->setShortcut(original->shortcut());
         standIn->setEnabled(original->isEnabled());
@@ -93,7 +93,7 @@ void LeaveGuard::replace(QMenu* menu)
     }
 }
 
-void LeaveGuard::restore()
+void LeaveGuard::restoreActions()
 {
     for (const StandIn& each : qAsConst(mStandIns))
     {

@@ -1,4 +1,4 @@
-// Asks before another project takes the place of the open one.
+// Asks before another project replaces the open one.
 #pragma once
 
 #include "host/parts.h"
@@ -10,8 +10,8 @@
 namespace lampblack
 {
 
-/// Pencil2D asks by itself when it knows of changes. What it does not know of is guarded here: New, Open and
-/// recent files, by shortcut and by menu.
+/// Pencil2D asks by itself if it knows of changes, but it does not know of ours. This class handles New, Open
+/// and recent files, by shortcut and by menu.
 class LeaveGuard : public QObject
 {
     Q_OBJECT
@@ -20,8 +20,8 @@ public:
     LeaveGuard(const Parts& parts, QObject* parent);
     ~LeaveGuard() override;
 
-    /// `mayLeave` may ask the artist; false keeps the project.
-    void set(std::function<bool()> mayLeave) { mMayLeave = std::move(mayLeave); }
+    /// `mayLeave` may ask the artist; false keeps the project open.
+    void setMayLeave(std::function<bool()> mayLeave) { mMayLeave = std::move(mayLeave); }
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -31,10 +31,10 @@ private:
         QPointer<QAction> original;
         QPointer<QAction> action;
     };
-    void guard(QMenu* menu);
+    void guardMenu(QMenu* menu);
     QVector<QAction*> leavingActions(const QMenu& menu) const;
     void replace(QMenu* menu);
-    void restore();
+    void restoreActions();
 
     Parts mParts;
     std::function<bool()> mMayLeave;

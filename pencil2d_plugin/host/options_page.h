@@ -1,4 +1,4 @@
-// Our panel in the place of the tool options.
+// Shows our panel instead of the tool options.
 #pragma once
 
 #include "host/parts.h"
@@ -20,7 +20,7 @@ public:
 private:
     Parts mParts;
     QPointer<QWidget> mPage;
-    QVector<QPointer<QWidget>> mHidden; ///< the program's own, while ours is shown
+    QVector<QPointer<QWidget>> mHidden; ///< the program's own widgets, while ours is shown
     bool mShown = false;
 };
 

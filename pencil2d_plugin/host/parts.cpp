@@ -89,7 +89,7 @@ Parts findParts(QMainWindow* window)
             parts.timeControls = widget;
         else if (isClass(widget, "TimeLineCells"))
         {
-            // Both halves are of one class; the tracks are the ones that scrub, and stand to the right.
+            // Layers and tracks are of the same class; the tracks are to the right, see below.
             if (parts.trackCells == nullptr)
                 parts.trackCells = widget;
             else
@@ -107,27 +107,27 @@ Parts findParts(QMainWindow* window)
 namespace
 {
 
-QString absent(const char* thing)
+QString missingSentence(const char* thing)
 {
     return QStringLiteral("This version of Pencil2D has no %1 that Lampblack knows.")
         .arg(QLatin1String(thing));
 }
 
-QString whyNoFrames(const Parts& parts)
+QString whyNotFrames(const Parts& parts)
 {
     if (parts.action("actionExport_ImageSeq") == nullptr)
-        return absent("image sequence export");
+        return missingSentence("image sequence export");
     if (!has(parts.editor, "scrubbed(int)") || !has(parts.playback, "playStateChanged(bool)"))
-        return absent("time line");
+        return missingSentence("time line");
     return {};
 }
 
-QString whyNoLayers(const Parts& parts)
+QString whyNotLayers(const Parts& parts)
 {
     if (parts.layerCells == nullptr || parts.trackCells == nullptr ||
         !has(parts.layerCells, "vScrollChange(int)") || !has(parts.layers, "currentLayerChanged(int)"))
     {
-        return absent("list of layers");
+        return missingSentence("list of layers");
     }
     return {};
 }
@@ -137,35 +137,35 @@ QString whyNoLayers(const Parts& parts)
 QString whyNot(const Parts& parts, Host::Ability ability)
 {
     if (parts.window == nullptr || parts.canvas == nullptr || parts.editor == nullptr)
-        return absent("canvas");
+        return missingSentence("canvas");
     switch (ability)
     {
     case Host::Ability::Palette:
         if (parts.toolButtons().isEmpty() || parts.toolButtons().first()->parentWidget()->layout() == nullptr)
-            return absent("tool palette");
-        return has(parts.tools, "toolChanged(ToolType)") ? QString() : absent("tool manager");
+            return missingSentence("tool palette");
+        return has(parts.tools, "toolChanged(ToolType)") ? QString() : missingSentence("tool manager");
     case Host::Ability::Panel:
         if (parts.options == nullptr || parts.options->widget() == nullptr ||
             parts.options->widget()->layout() == nullptr)
         {
-            return absent("tool options");
+            return missingSentence("tool options");
         }
         return {};
     case Host::Ability::Frames:
-        return whyNoFrames(parts);
+        return whyNotFrames(parts);
     case Host::Ability::Layers:
-        return whyNoLayers(parts);
+        return whyNotLayers(parts);
     case Host::Ability::Deliver:
-        return parts.action("actionImportLayers_from_pclx") != nullptr ? whyNoLayers(parts)
-                                                                       : absent("import of layers");
+        return parts.action("actionImportLayers_from_pclx") != nullptr ? whyNotLayers(parts)
+                                                                       : missingSentence("import of layers");
     case Host::Ability::View:
-        return has(parts.view, "viewChanged()") ? QString() : absent("view");
+        return has(parts.view, "viewChanged()") ? QString() : missingSentence("view");
     case Host::Ability::Undo:
-        return parts.action("actionUndo") != nullptr ? QString() : absent("undo");
+        return parts.action("actionUndo") != nullptr ? QString() : missingSentence("undo");
     case Host::Ability::Project:
-        return has(parts.editor, "objectLoaded()") ? QString() : absent("project signals");
+        return has(parts.editor, "objectLoaded()") ? QString() : missingSentence("project signals");
     }
-    return absent("such thing");
+    return missingSentence("such thing");
 }
 
 } // namespace lampblack

@@ -1,4 +1,4 @@
-// The parts of Pencil2D's window that we hold on to, found by class and object name.
+// The parts of Pencil2D's window that we use, found by class and object name.
 #pragma once
 
 #include "host/host.h"
@@ -10,7 +10,7 @@
 namespace lampblack
 {
 
-/// What was found; anything may be null on another version of the program.
+/// Parts may be null in another version of the program.
 struct Parts
 {
     QPointer<QMainWindow> window;
@@ -25,25 +25,25 @@ struct Parts
     QPointer<QDockWidget> palette;
     QPointer<QDockWidget> options;
     QPointer<QWidget> timeControls;
-    QPointer<QWidget> layerCells; ///< names and eyes, beside the tracks
+    QPointer<QWidget> layerCells; ///< names and eyes of the layers, left of the tracks
     QPointer<QWidget> trackCells;
 
     QAction* action(const char* name) const;
-    QVector<QToolButton*> toolButtons() const; ///< checkable ones of the palette
+    QVector<QToolButton*> toolButtons() const; ///< the checkable buttons of the palette
 };
 
-/// The main window of Pencil2D among the shown windows of this process, or null.
+/// The visible main window of Pencil2D in this process, or null.
 QMainWindow* findMainWindow();
 
 Parts findParts(QMainWindow* window);
 
-/// One sentence that says why this build does not let us; empty if it does.
+/// A sentence that says why this version does not support `ability`; empty if it does.
 QString whyNot(const Parts& parts, Host::Ability ability);
 
-/// Whether `object` declares this signal or slot, named as moc does: "scrubbed(int)".
+/// Whether `object` has this signal or slot, written as by moc: "scrubbed(int)".
 bool has(const QObject* object, const char* signature);
 
-/// Whether `object` is of the class `name`, or of one derived from it.
+/// Whether `object` is of the class `name` or a class derived from it.
 bool isClass(const QObject* object, const char* name);
 
 } // namespace lampblack

@@ -11,11 +11,11 @@ namespace lampblack
 namespace
 {
 
-constexpr int SurveyMs = 50;
-constexpr int MaxLayerAttempts = 20; ///< the list is not laid out at once
+constexpr int SurveyDelayMs = 50;
+constexpr int MaxLayerAttempts = 20; ///< the list needs some time for its layout
 const QSize DefaultCanvas(800, 600);
 
-bool isStill(const CameraKeys& keys)
+bool isStatic(const CameraKeys& keys)
 {
     return std::all_of(keys.begin(), keys.end(), [](const QTransform& view) { return view.isIdentity(); });
 }
@@ -29,7 +29,7 @@ bool isSame(const Layer& a, const Layer& b)
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
-      mLeaving(parts, nullptr), mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr),
+      mLeaveGuard(parts, nullptr), mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr),
       mDelivery(parts, &mIdleness, nullptr), mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr),
       mOptions(parts, nullptr), mCanvasSize(DefaultCanvas)
 {
@@ -62,13 +62,13 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
                 if (mOnCamera)
                 {
                     mCameraKnown = false;
-                    mSurvey.start();
+                    mSurveyTimer.start();
                 }
                 Q_EMIT drawingChanged(currentFrame());
             });
-    connect(&mDrawing, &DrawingWatch::layersTouched, this, &Pencil2DHost::onLayersTouched);
-    connect(&mDrawing, &DrawingWatch::eyeTouched, this, &Pencil2DHost::surveyEyes);
-    connect(&mQueue, &FrameQueue::looked, this, &Pencil2DHost::onLooked);
+    connect(&mDrawing, &DrawingWatch::layersMaybeChanged, this, &Pencil2DHost::onLayersMaybeChanged);
+    connect(&mDrawing, &DrawingWatch::eyeMaybeChanged, this, &Pencil2DHost::surveyEyes);
+    connect(&mQueue, &FrameQueue::dialogRead, this, &Pencil2DHost::onDialogRead);
     connect(&mQueue, &FrameQueue::exported, this, &Pencil2DHost::onExported);
     connect(&mQueue, &FrameQueue::failed, this, &Host::exportFailed);
     connect(&mDelivery, &LayerDelivery::delivered, this,
@@ -86,10 +86,10 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
         connect(parts.preferences, SIGNAL(optionChanged(SETTING)), this, SLOT(forgetPaper()));
 
     mQueue.setCurrentFrame(mTransport.currentFrame());
-    mSurvey.setSingleShot(true);
-    mSurvey.setInterval(SurveyMs);
-    connect(&mSurvey, &QTimer::timeout, this, &Pencil2DHost::survey);
-    mSurvey.start();
+    mSurveyTimer.setSingleShot(true);
+    mSurveyTimer.setInterval(SurveyDelayMs);
+    connect(&mSurveyTimer, &QTimer::timeout, this, &Pencil2DHost::surveyProject);
+    mSurveyTimer.start();
 }
 
 Pencil2DHost::~Pencil2DHost() = default;
@@ -155,7 +155,7 @@ std::optional<QTransform> Pencil2DHost::canvasToWidget() const
         return std::nullopt;
     const QPointF origin = originIn(mCanvasSize);
     const QTransform toOrigin = QTransform::fromTranslate(-origin.x(), -origin.y());
-    return toOrigin * snapped(matrices->widget);
+    return toOrigin * snappedToPixels(matrices->widget);
 }
 
 QColor Pencil2DHost::paper() const
@@ -165,7 +165,7 @@ QColor Pencil2DHost::paper() const
     constexpr int Side = 32;
     QImage patch(Side, Side, QImage::Format_RGB32);
     patch.fill(Qt::white);
-    // Its centre, clear of the shadow that runs along its edges.
+    // The centre, because there is a shadow along the edges.
     const QPoint corner = mParts.background->rect().center() - QPoint(Side / 2, Side / 2);
     mParts.background->render(&patch, QPoint(), QRegion(QRect(corner, patch.size())),
                               QWidget::DrawWindowBackground);
@@ -225,10 +225,10 @@ void Pencil2DHost::onCurrentLayerChanged(int index)
     if (mOnCamera && !camera)
     {
         mCameraKnown = false;
-        mSurvey.start();
+        mSurveyTimer.start();
     }
     mOnCamera = camera;
-    // Pencil2D looks through a camera while it is the current layer, and says nothing of it.
+    // While a camera is the current layer, Pencil2D shows its view, without a signal.
     Q_EMIT viewChanged();
 }
 
@@ -239,18 +239,18 @@ void Pencil2DHost::onProjectOpened(const QString& path)
     mLayers.clear();
     mLayersKnown = false;
     mCameraKnown = false;
-    mSurvey.start();
+    mSurveyTimer.start();
     Q_EMIT projectOpened(path);
     Q_EMIT viewChanged();
 }
 
-void Pencil2DHost::onLayersTouched()
+void Pencil2DHost::onLayersMaybeChanged()
 {
     mLayersKnown = false;
-    mSurvey.start();
+    mSurveyTimer.start();
 }
 
-void Pencil2DHost::onLooked(const Exported& exported)
+void Pencil2DHost::onDialogRead(const ExportResult& exported)
 {
     if (exported.cameras.isEmpty())
         return;
@@ -271,25 +271,25 @@ void Pencil2DHost::onExported(int frame, const QStringList& layers, const QImage
     Q_EMIT frameExported({frame, image, canvasToImage(cameraAt(mCamera, frame), image.size()), layers});
 }
 
-void Pencil2DHost::survey()
+void Pencil2DHost::surveyProject()
 {
     if (mParts.window == nullptr)
         return;
     auto* selection = mParts.window->findChild<QMenu*>(QStringLiteral("menuSelection"));
-    const bool selecting = selection != nullptr && selection->isEnabled();
-    if (!mIdleness.isIdle() || isPlaying() || selecting)
+    const bool isSelecting = selection != nullptr && selection->isEnabled();
+    if (!mIdleness.isIdle() || isPlaying() || isSelecting)
     {
-        mSurvey.start();
+        mSurveyTimer.start();
         return;
     }
     {
         const Idleness::Work work(&mIdleness);
         if (lampblack::whyNot(mParts, Ability::Frames).isEmpty())
-            onLooked(ExportDialog(mParts).look());
+            onDialogRead(ExportDialog(mParts).inspect());
     }
     if (!mLayersKnown && lampblack::whyNot(mParts, Ability::Layers).isEmpty() && !surveyLayers())
     {
-        mSurvey.start();
+        mSurveyTimer.start();
         return;
     }
     if (!mCameraKnown)
@@ -346,10 +346,10 @@ void Pencil2DHost::surveyCamera(int row)
     const Idleness::Work work(&mIdleness);
     const QSignalBlocker still(&mTransport);
     const auto keys = readCamera(mParts, mRows, &mView, row, [this] { return mTransport.currentFrame(); });
-    const bool moved = !isStill(mCamera) || (keys && !isStill(*keys));
+    const bool moved = !isStatic(mCamera) || (keys && !isStatic(*keys));
     const bool changed = moved && mCamera != keys.value_or(CameraKeys());
     mCamera = keys.value_or(CameraKeys());
-    // Frames taken before went through the camera as it was.
+    // Frames exported before show the camera as it was.
     if (changed)
         Q_EMIT layersChanged();
 }

@@ -1,4 +1,4 @@
-// Pencil2D 0.6, stock, driven through its widgets, actions and moc's metadata.
+// The host for an unmodified Pencil2D 0.6. It uses its widgets, actions and meta-objects.
 #pragma once
 
 #include "host/camera_path.h"
@@ -50,7 +50,7 @@ public:
 
     QString projectPath() const override { return mProject.path(); }
     bool isModified() const override { return mProject.isModified(); }
-    void guardLeaving(const std::function<bool()>& mayLeave) override { mLeaving.set(mayLeave); }
+    void guardLeaving(const std::function<bool()>& mayLeave) override { mLeaveGuard.setMayLeave(mayLeave); }
     bool openProject(const QString& path) override { return mProject.open(path); }
     bool saveProject() override { return mProject.save(); }
 
@@ -63,12 +63,12 @@ private Q_SLOTS:
     void forgetPaper() { mPaper = QColor(); }
 
 private:
-    void survey();
+    void surveyProject();
     void surveyCamera(int row);
-    void onLooked(const Exported& exported);
+    void onDialogRead(const ExportResult& exported);
     void onExported(int frame, const QStringList& layers, const QImage& image);
     void onProjectOpened(const QString& path);
-    void onLayersTouched();
+    void onLayersMaybeChanged();
     bool surveyLayers();
     void surveyEyes();
 
@@ -76,7 +76,7 @@ private:
     Idleness mIdleness;
     Transport mTransport;
     ProjectWatch mProject;
-    LeaveGuard mLeaving;
+    LeaveGuard mLeaveGuard;
     LayerRows mRows;
     mutable ViewReader mView;
     FrameQueue mQueue;
@@ -84,7 +84,7 @@ private:
     DrawingWatch mDrawing;
     ToolPalette mPalette;
     OptionsPage mOptions;
-    QTimer mSurvey;
+    QTimer mSurveyTimer;
 
     QVector<Layer> mLayers;
     CameraKeys mCamera;

@@ -1,4 +1,4 @@
-// A small Pencil2D project of one bitmap layer: the form in which Pencil2D takes a layer in.
+// A Pencil2D project with one bitmap layer: Pencil2D imports layers from project files.
 #pragma once
 
 #include <QByteArray>
@@ -9,20 +9,20 @@
 namespace lampblack
 {
 
-/// What shows in an image: cut to its opaque part. The corner is from the canvas's centre, where Pencil2D
-/// has its origin. Nothing drawn: one transparent pixel.
+/// The opaque part of an image, or one transparent pixel if nothing is drawn. `corner` is its top left corner
+/// in Pencil2D's coordinates, whose origin is the centre of the canvas.
 struct Cel
 {
     QImage image;
     QPoint corner;
 };
 
-/// Cut an image whose origin lies at `origin`, in its own pixels. Pencil2D 0.6 moves key frames with
-/// transparent margins each time the project is saved.
+/// Crop an image whose pixel `origin` is Pencil2D's origin. Needed because Pencil2D 0.6 moves key frames that
+/// have transparent margins each time the project is saved.
 Cel cut(const QImage& image, const QPoint& origin);
 
-/// Written key frame by key frame into `folder`, in the old format ("layer.pcl" with a folder beside it),
-/// which needs no zip. Pencil2D may read the files again later: they are to stay while it runs.
+/// Writes key frame by key frame into `folder`, in the old format ("layer.pcl" and a data folder), which
+/// needs no zip. The files must stay while Pencil2D runs, because it may read them again.
 class ProjectFile
 {
 public:

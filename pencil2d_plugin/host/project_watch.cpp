@@ -10,7 +10,7 @@ namespace lampblack
 namespace
 {
 
-constexpr int SettleMs = 120; ///< a project is loaded, then named, then drawn
+constexpr int CheckDelayMs = 120; ///< time for Pencil2D to load, name and draw a project
 
 QDateTime writtenAt(const QString& path)
 {
@@ -30,19 +30,19 @@ QString projectOf(const QString& title)
 
 ProjectWatch::ProjectWatch(const Parts& parts, QObject* parent)
     : QObject(parent), mParts(parts), mPath(projectOf(parts.window->windowTitle())),
-      mWritten(writtenAt(mPath))
+      mWrittenAt(writtenAt(mPath))
 {
-    mSettle.setSingleShot(true);
-    mSettle.setInterval(SettleMs);
-    connect(&mSettle, &QTimer::timeout, this, &ProjectWatch::settle);
+    mCheckTimer.setSingleShot(true);
+    mCheckTimer.setInterval(CheckDelayMs);
+    connect(&mCheckTimer, &QTimer::timeout, this, &ProjectWatch::checkProject);
     parts.window->installEventFilter(this);
-    connect(qApp, &QCoreApplication::aboutToQuit, this, &ProjectWatch::tellOfSave);
+    connect(qApp, &QCoreApplication::aboutToQuit, this, &ProjectWatch::checkSaved);
     if (has(parts.editor, "objectLoaded()"))
         connect(parts.editor, SIGNAL(objectLoaded()), this, SLOT(onLoaded()));
     for (const char* name : {"actionSave", "actionSave_as"})
     {
         if (QAction* action = parts.action(name))
-            connect(action, &QAction::triggered, &mSettle, qOverload<>(&QTimer::start));
+            connect(action, &QAction::triggered, &mCheckTimer, qOverload<>(&QTimer::start));
     }
 }
 
@@ -65,54 +65,54 @@ bool ProjectWatch::save()
     if (action == nullptr || mPath.isEmpty())
         return false;
     action->trigger();
-    return writtenAt(mPath) != mWritten;
+    return writtenAt(mPath) != mWrittenAt;
 }
 
 bool ProjectWatch::eventFilter(QObject*, QEvent* event)
 {
     if (event->type() == QEvent::WindowTitleChange || event->type() == QEvent::ModifiedChange)
-        mSettle.start();
+        mCheckTimer.start();
     return false;
 }
 
 void ProjectWatch::onLoaded()
 {
     mLoaded = true;
-    mSettle.start();
+    mCheckTimer.start();
 }
 
-void ProjectWatch::settle()
+void ProjectWatch::checkProject()
 {
     if (mParts.window == nullptr)
         return;
-    // A project still being read shows its progress in a modal dialog.
+    // While a project is read, Pencil2D shows a modal progress dialog.
     if (QApplication::activeModalWidget() != nullptr)
     {
-        mSettle.start();
+        mCheckTimer.start();
         return;
     }
     const QString path = projectOf(mParts.window->windowTitle());
     if (!mLoaded)
     {
         if (path != mPath)
-            mWritten = QDateTime();
+            mWrittenAt = QDateTime();
         mPath = path;
-        tellOfSave();
+        checkSaved();
         return;
     }
-    tellOfSave(); // of the one before, where the artist was asked and said so
+    checkSaved(); // the project before may have been saved on leaving it
     mLoaded = false;
     mPath = path;
-    mWritten = writtenAt(path);
+    mWrittenAt = writtenAt(path);
     Q_EMIT opened(path);
 }
 
-void ProjectWatch::tellOfSave()
+void ProjectWatch::checkSaved()
 {
     const QDateTime written = writtenAt(mPath);
-    if (written == mWritten)
+    if (written == mWrittenAt)
         return;
-    mWritten = written;
+    mWrittenAt = written;
     Q_EMIT saved(mPath);
 }
 

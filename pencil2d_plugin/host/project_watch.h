@@ -1,4 +1,4 @@
-// Which project is open, and when it is opened and saved.
+// Knows which project is open, and detects when it is opened and saved.
 #pragma once
 
 #include "host/parts.h"
@@ -9,7 +9,7 @@
 namespace lampblack
 {
 
-/// The project's path in a window title ("[*]/shots/walk.pclx"); empty if it names none.
+/// The project's path in a window title ("[*]/shots/walk.pclx"); empty if there is none.
 QString projectOf(const QString& title);
 
 class ProjectWatch : public QObject
@@ -35,13 +35,13 @@ private Q_SLOTS:
     void onLoaded();
 
 private:
-    void settle();
-    void tellOfSave();
+    void checkProject();
+    void checkSaved();
 
     Parts mParts;
-    QTimer mSettle;
+    QTimer mCheckTimer;
     QString mPath;
-    QDateTime mWritten; ///< when the file was last written, as far as we know
+    QDateTime mWrittenAt; ///< time of the file when it was last checked
     bool mLoaded = false;
 };
 

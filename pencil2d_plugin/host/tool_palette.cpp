@@ -16,7 +16,7 @@ ToolPalette::ToolPalette(const Parts& parts, QObject* parent) : QObject(parent),
 
 ToolPalette::~ToolPalette()
 {
-    leave();
+    deactivate();
     delete mButton;
 }
 
@@ -43,11 +43,11 @@ void ToolPalette::add(QAction* tool)
     mButton->show();
 
     connect(tool, &QAction::toggled, this, &ToolPalette::onToggled);
-    // A second press of the tool in use keeps it, as with the others.
+    // In an exclusive group, clicking the active tool again keeps it, as with the other tools.
     (new QActionGroup(this))->addAction(tool);
     connect(mParts.tools, SIGNAL(toolChanged(ToolType)), this, SLOT(onToolChanged()));
     for (QToolButton* other : tools)
-        connect(other, &QToolButton::clicked, this, &ToolPalette::leave);
+        connect(other, &QToolButton::clicked, this, &ToolPalette::deactivate);
 
     auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuTools"));
     if (menu == nullptr)
@@ -57,7 +57,7 @@ void ToolPalette::add(QAction* tool)
     }
     const QList<QAction*> entries = menu->actions();
     for (QAction* other : entries)
-        connect(other, &QAction::triggered, this, &ToolPalette::leave);
+        connect(other, &QAction::triggered, this, &ToolPalette::deactivate);
     const auto separator = std::find_if(entries.begin(), entries.end(),
                                         [](const QAction* entry) { return entry->isSeparator(); });
     menu->insertAction(separator == entries.end() ? nullptr : *separator, tool);
@@ -66,7 +66,7 @@ void ToolPalette::add(QAction* tool)
 void ToolPalette::onToggled(bool checked)
 {
     if (checked)
-        enter();
+        uncheckOthers();
     else if (mBefore != nullptr)
     {
         const QVector<QToolButton*> tools = mParts.toolButtons();
@@ -80,7 +80,7 @@ void ToolPalette::onToggled(bool checked)
     Q_EMIT activated(checked);
 }
 
-void ToolPalette::enter()
+void ToolPalette::uncheckOthers()
 {
     const QVector<QToolButton*> tools = mParts.toolButtons();
     for (QToolButton* button : tools)
@@ -96,20 +96,21 @@ void ToolPalette::onToolChanged()
 {
     if (mAction == nullptr || !mAction->isChecked())
         return;
-    // Alt takes the eyedropper, for one, and gives the tool back on release: no choice of the artist's.
-    const bool held = QGuiApplication::queryKeyboardModifiers() != Qt::NoModifier;
-    if (!held && !mBorrowed)
+    // While Alt is held, for example, Pencil2D switches to the eyedropper and back. The artist did not choose
+    // it.
+    const bool isHeld = QGuiApplication::queryKeyboardModifiers() != Qt::NoModifier;
+    if (!isHeld && !mTemporarySwitch)
     {
-        leave();
+        deactivate();
         return;
     }
-    mBorrowed = held;
-    enter();
+    mTemporarySwitch = isHeld;
+    uncheckOthers();
 }
 
-void ToolPalette::leave()
+void ToolPalette::deactivate()
 {
-    mBorrowed = false;
+    mTemporarySwitch = false;
     if (mAction != nullptr)
         mAction->setChecked(false);
 }

@@ -1,4 +1,4 @@
-// Our button among the program's tools, exclusive with them.
+// Our button in the tool palette, exclusive with the program's tools.
 #pragma once
 
 #include "host/parts.h"
@@ -23,15 +23,15 @@ private Q_SLOTS:
     void onToolChanged();
 
 private:
-    void leave();
+    void deactivate();
     void onToggled(bool checked);
-    void enter();
+    void uncheckOthers();
 
     Parts mParts;
     QPointer<QAction> mAction;
     QPointer<QToolButton> mButton;
-    QPointer<QToolButton> mBefore; ///< the program's tool that ours stands in for
-    bool mBorrowed = false;        ///< the program changed its tool for as long as a key is held
+    QPointer<QToolButton> mBefore; ///< the tool that was active before ours
+    bool mTemporarySwitch = false; ///< the program has changed its tool while a key is held
 };
 
 } // namespace lampblack

@@ -22,7 +22,7 @@ int frameOf(const QString& label)
 
 Transport::Transport(const Parts& parts, QObject* parent) : QObject(parent), mParts(parts)
 {
-    // The other side is known to moc only, hence by string.
+    // Connected by name, because we do not have the headers of these classes.
     if (has(parts.editor, "scrubbed(int)"))
         connect(parts.editor, SIGNAL(scrubbed(int)), this, SLOT(onScrubbed(int)));
     if (has(parts.layers, "animationLengthChanged(int)"))
@@ -62,7 +62,7 @@ void Transport::goTo(int frame)
 double Transport::framesPerSecond() const
 {
     constexpr double Default = 12;
-    // The first spin box of the controls; the others are the loop's ends.
+    // The first spin box of the controls; the others are the ends of the loop.
     const auto* box = mParts.timeControls == nullptr ? nullptr : mParts.timeControls->findChild<QSpinBox*>();
     return box == nullptr ? Default : box->value();
 }

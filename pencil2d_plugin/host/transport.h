@@ -1,4 +1,4 @@
-// Where the animation stands, how long it is and how fast it plays.
+// The current frame, length, speed and playback of the animation.
 #pragma once
 
 #include "host/parts.h"
@@ -6,7 +6,7 @@
 namespace lampblack
 {
 
-/// The frame that a time label shows ("0012", "00:01:00 | 0012"); 0 if it shows none.
+/// The frame in a time label ("0012", "00:01:00 | 0012"); 0 if there is none.
 int frameOf(const QString& label);
 
 class Transport : public QObject

@@ -36,12 +36,12 @@ bool UnseenDialogs::eventFilter(QObject* watched, QEvent* event)
     dialog->setAttribute(Qt::WA_DontShowOnScreen);
     if (event->type() == QEvent::Polish)
     {
-        // A modal dialog, seen or not, would swallow the strokes drawn meanwhile.
+        // A modal dialog would block strokes that the artist draws meanwhile, even if it is not shown.
         if (qobject_cast<QFileDialog*>(dialog) == nullptr)
             dialog->setWindowModality(Qt::NonModal);
         return false;
     }
-    // Answered later: inside Show, exec() has not begun to wait yet and would wait for ever.
+    // Later, because during Show exec() is not waiting yet, and would never return.
     QTimer::singleShot(0, dialog,
                        [self = QPointer<UnseenDialogs>(this), dialog]
                        {

@@ -1,4 +1,4 @@
-// Dialogs that the program opens for us and that nobody is to see.
+// Operates dialogs of the program without showing them.
 #pragma once
 
 #include <QDialog>
@@ -11,9 +11,9 @@
 namespace lampblack
 {
 
-/// While it lives, every dialog that the program opens stays off the screen, takes no focus and no
-/// input, and is answered by `answer` from within its own event loop. A dialog that is still open
-/// after its answer is rejected, so that a nested exec() always returns.
+/// While it exists, every dialog that the program opens is not shown and takes no focus and no input.
+/// `answer` is called for it from the dialog's event loop. A dialog that is still open afterwards is
+/// rejected, so that exec() always returns.
 class UnseenDialogs : public QObject
 {
     Q_OBJECT
@@ -22,11 +22,12 @@ public:
     using Answer = std::function<void(QDialog*)>;
     using Consent = std::function<bool(const QString& question)>;
 
-    /// Message boxes are complaints, but for questions that have our `consent`: they are answered Yes.
+    /// A message box is answered Yes if `consent` returns true for its text. Otherwise its text is a
+    /// complaint.
     explicit UnseenDialogs(Answer answer, Consent consent = {});
     ~UnseenDialogs() override;
 
-    /// Texts of message boxes that came up: what the program complained about.
+    /// Texts of the message boxes without consent: error messages of the program.
     QStringList complaints() const { return mComplaints; }
 
     bool eventFilter(QObject* watched, QEvent* event) override;

@@ -56,12 +56,12 @@ QByteArray readSafely(const void* address, int size)
     if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0)
         return {};
     QByteArray bytes(size, '\0');
-    // By its number: a sanitizer's write() would object to reading past the object, which is the point.
-    const bool whole = ::syscall(SYS_write, ends[1], address, static_cast<size_t>(size)) == size &&
-                       ::read(ends[0], bytes.data(), static_cast<size_t>(size)) == size;
+    // Not write(): the address sanitizer would report that we read outside of objects, which we intend.
+    const bool isWhole = ::syscall(SYS_write, ends[1], address, static_cast<size_t>(size)) == size &&
+                         ::read(ends[0], bytes.data(), static_cast<size_t>(size)) == size;
     ::close(ends[0]);
     ::close(ends[1]);
-    return whole ? bytes : QByteArray();
+    return isWhole ? bytes : QByteArray();
 }
 
 std::optional<ViewMatrices> matricesAt(const QByteArray& bytes, int offset)
@@ -80,7 +80,7 @@ std::optional<ViewMatrices> matricesAt(const QByteArray& bytes, int offset)
     return matrices;
 }
 
-bool agree(const ViewMatrices& matrices, const QSize& widget)
+bool areConsistent(const ViewMatrices& matrices, const QSize& widget)
 {
     const QTransform centre = QTransform::fromTranslate(widget.width() / 2.0, widget.height() / 2.0);
     return near(matrices.view * matrices.viewInverse, QTransform()) &&
@@ -94,7 +94,7 @@ int findMatrices(const QByteArray& bytes, const QSize& widget, bool flipX, bool 
     for (int offset = 0; offset + MatrixCount * MatrixBytes <= bytes.size(); offset += int(sizeof(void*)))
     {
         const auto matrices = matricesAt(bytes, offset);
-        if (!matrices || !agree(*matrices, widget) ||
+        if (!matrices || !areConsistent(*matrices, widget) ||
             !near(matrices->view * flip * matrices->centre, matrices->widget))
         {
             continue;
@@ -117,14 +117,14 @@ double zoomOf(const QString& label)
                             : 0;
 }
 
-QTransform snapped(const QTransform& widget)
+QTransform snappedToPixels(const QTransform& widget)
 {
-    const auto whole = [](double value)
+    const auto isWhole = [](double value)
     {
         return std::abs(value - std::round(value)) < Tolerance;
     };
-    if (std::abs(widget.m12()) > Tolerance || std::abs(widget.m21()) > Tolerance || !whole(widget.m11()) ||
-        !whole(widget.m22()) || std::abs(widget.m11()) < 0.5)
+    if (std::abs(widget.m12()) > Tolerance || std::abs(widget.m21()) > Tolerance || !isWhole(widget.m11()) ||
+        !isWhole(widget.m22()) || std::abs(widget.m11()) < 0.5)
     {
         return widget;
     }
@@ -132,7 +132,7 @@ QTransform snapped(const QTransform& widget)
                       std::floor(widget.dy() + 0.5));
 }
 
-bool ViewReader::find()
+bool ViewReader::findOffset()
 {
     const QByteArray bytes = readSafely(mParts.view, SearchBytes);
     double zoom = 0;
@@ -150,12 +150,12 @@ std::optional<ViewMatrices> ViewReader::read()
 {
     if (mParts.view == nullptr || mParts.canvas == nullptr || mParts.window == nullptr)
         return std::nullopt;
-    if (mOffset < 0 && !find())
+    if (mOffset < 0 && !findOffset())
         return std::nullopt;
-    // Readable since it was found there, and the object lives.
+    // It can be read: it was found there, and the object still exists.
     const auto* start = reinterpret_cast<const char*>(mParts.view.data()) + mOffset;
     auto matrices = matricesAt(QByteArray::fromRawData(start, int(MatrixCount * MatrixBytes)), 0);
-    if (!matrices || !agree(*matrices, mParts.canvas->size()))
+    if (!matrices || !areConsistent(*matrices, mParts.canvas->size()))
         return std::nullopt;
     return matrices;
 }

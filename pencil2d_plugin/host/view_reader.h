@@ -1,10 +1,10 @@
-// The view transform, which Pencil2D keeps to itself.
+// Reads the view transform of Pencil2D, which is private.
 //
-// ViewManager holds, one after another: view, its inverse, view onto the widget, its inverse, and
-// the widget's centre, each a QTransform. No getter reaches moc. So the object's own memory is
-// searched once for five matrices that relate as these must, through a pipe, which refuses unreadable
-// addresses where a load would crash. Another build, with the members elsewhere or otherwise, is
-// either found likewise or not found at all.
+// ViewManager has five QTransform members in a row: the view, its inverse, the view onto the widget, its
+// inverse, and the widget's centre. It has no getter that can be called by name. So its memory is searched
+// once for five matrices with these relations. The memory is read through a pipe, which fails for addresses
+// that cannot be read, where a direct access would crash. In another build the matrices are found at another
+// place, or not at all.
 #pragma once
 
 #include "host/parts.h"
@@ -27,36 +27,36 @@ struct ViewMatrices
     QTransform centre;
 };
 
-/// Copy `size` bytes from `address`; empty if not all of them are readable. Never crashes.
+/// Copy `size` bytes from `address`; empty if not all of them can be read. Never crashes.
 QByteArray readSafely(const void* address, int size);
 
-/// Five matrices from the start of `bytes`, laid out as QTransform lies in Qt 5.
+/// The five matrices at `offset` of `bytes`, in the memory layout of Qt 5's QTransform.
 std::optional<ViewMatrices> matricesAt(const QByteArray& bytes, int offset);
 
-/// Whether the five belong together in a widget of this size.
-bool agree(const ViewMatrices& matrices, const QSize& widget);
+/// Whether the five matrices can belong together in a widget of this size.
+bool areConsistent(const ViewMatrices& matrices, const QSize& widget);
 
-/// Where in `bytes` such five lie under these flips and this zoom (0: unknown); -1 if nowhere, or in
-/// more places than one.
+/// The offset in `bytes` of five consistent matrices with these flips and this zoom (0: unknown). -1 if there
+/// are none, or more than one place.
 int findMatrices(const QByteArray& bytes, const QSize& widget, bool flipX, bool flipY, double zoom);
 
 /// The zoom that the status bar shows, as a factor; 0 if there is none.
 double zoomOf(const QString& label);
 
-/// The view as it is painted: unrotated and at a whole zoom, Pencil2D paints its bitmaps at the nearest
-/// whole pixel (half a pixel goes up, in logical pixels also on dense screens).
-QTransform snapped(const QTransform& widget);
+/// The view as Pencil2D paints it: without rotation and at a whole zoom, it paints bitmaps at the nearest
+/// whole logical pixel (halves are rounded up).
+QTransform snappedToPixels(const QTransform& widget);
 
 class ViewReader
 {
 public:
     explicit ViewReader(const Parts& parts) : mParts(parts) {}
 
-    /// The matrices as they are now; nothing while they cannot be told apart.
+    /// The current matrices; no value while they are not found.
     std::optional<ViewMatrices> read();
 
 private:
-    bool find();
+    bool findOffset();
 
     Parts mParts;
     int mOffset = -1;

@@ -11,11 +11,11 @@ namespace lampblack
 namespace
 {
 
-const QString DataEnding = QStringLiteral(".data"); ///< of the folder beside an old project
+const QString DataSuffix = QStringLiteral(".data"); ///< of the folder beside an old project
 
 QString copyWhole(const QString& from, const QString& to)
 {
-    constexpr qint64 Piece = 1 << 20;
+    constexpr qint64 ChunkBytes = 1 << 20;
     QFile source(from);
     QSaveFile target(to);
     if (!source.open(QFile::ReadOnly))
@@ -24,8 +24,8 @@ QString copyWhole(const QString& from, const QString& to)
         return QStringLiteral("%1: %2").arg(to, target.errorString());
     while (!source.atEnd())
     {
-        const QByteArray piece = source.read(Piece);
-        if (piece.isEmpty() || target.write(piece) != piece.size())
+        const QByteArray chunk = source.read(ChunkBytes);
+        if (chunk.isEmpty() || target.write(chunk) != chunk.size())
             return QStringLiteral("%1: %2 %3").arg(to, source.errorString(), target.errorString());
     }
     return target.commit() ? QString() : QStringLiteral("%1: %2").arg(to, target.errorString());
@@ -39,24 +39,24 @@ QString copyFolder(const QString& from, const QString& to)
         const QString file = files.next();
         if (!QDir().mkpath(to))
             return to;
-        if (QString fault = copyWhole(file, QDir(to).filePath(files.fileName())); !fault.isEmpty())
-            return fault;
+        if (QString error = copyWhole(file, QDir(to).filePath(files.fileName())); !error.isEmpty())
+            return error;
     }
     return {};
 }
 
 } // namespace
 
-QString backupOf(const QString& project)
+QString backupPath(const QString& project)
 {
     const QFileInfo file(project);
     return file.dir().filePath(file.completeBaseName() + QStringLiteral(".backup.") + file.suffix());
 }
 
-QString backUp(const QString& project)
+QString backUpProject(const QString& project)
 {
-    const QString fault = copyFolder(project + DataEnding, backupOf(project) + DataEnding);
-    return fault.isEmpty() ? copyWhole(project, backupOf(project)) : fault;
+    const QString error = copyFolder(project + DataSuffix, backupPath(project) + DataSuffix);
+    return error.isEmpty() ? copyWhole(project, backupPath(project)) : error;
 }
 
 } // namespace lampblack

@@ -1,4 +1,4 @@
-// A copy of the project beside it, from before our layer first went in.
+// A backup of the project, made before Lampblack first puts a layer into it.
 #pragma once
 
 #include <QString>
@@ -6,11 +6,11 @@
 namespace lampblack
 {
 
-/// "walk.pclx" has "walk.backup.pclx".
-QString backupOf(const QString& project);
+/// The backup of "walk.pclx" is "walk.backup.pclx", in the same folder.
+QString backupPath(const QString& project);
 
-/// Copy the project, the data folder of an old "walk.pcl" too. An older backup is replaced once the new one
-/// is whole. Returns what went wrong; empty if nothing did. Waits for the disk.
-QString backUp(const QString& project);
+/// Copy the project, and the data folder of an old "walk.pcl". A new backup replaces an older one when it is
+/// complete. Returns an error message, empty on success. Blocks while it reads and writes.
+QString backUpProject(const QString& project);
 
 } // namespace lampblack

@@ -7,32 +7,32 @@ namespace lampblack
 
 namespace
 {
-constexpr int Wanted = 280;
+constexpr int MaterialsHeight = 280; // pixels
 }
 
 DockRoom::DockRoom(Host& host, QObject* parent) : QObject(parent), mHost(host)
 {
-    // Queued: the panel is put into its dock on the same signal.
+    // Queued, because the host puts the panel into its dock on the same signal.
     connect(
-        &host, &Host::toolActivated, this, [this](bool active) { active ? take() : giveBack(); },
+        &host, &Host::toolActivated, this, [this](bool active) { active ? makeRoom() : restoreHeights(); },
         Qt::QueuedConnection);
 }
 
-void DockRoom::take()
+void DockRoom::makeRoom()
 {
     auto* window = qobject_cast<QMainWindow*>(mHost.window());
     auto* materials =
         window ? window->findChild<QDockWidget*>(QStringLiteral("lampblack.materials")) : nullptr;
     if (materials == nullptr || materials->isFloating() || !mBefore.isEmpty() ||
-        materials->height() >= Wanted)
+        materials->height() >= MaterialsHeight)
         return;
     for (auto* dock : window->findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
         if (window->dockWidgetArea(dock) == window->dockWidgetArea(materials))
             mBefore.append({dock, dock->height()});
-    window->resizeDocks({materials}, {qMin(Wanted, window->height() / 3)}, Qt::Vertical);
+    window->resizeDocks({materials}, {qMin(MaterialsHeight, window->height() / 3)}, Qt::Vertical);
 }
 
-void DockRoom::giveBack()
+void DockRoom::restoreHeights()
 {
     auto* window = qobject_cast<QMainWindow*>(mHost.window());
     QList<QDockWidget*> docks;

@@ -1,4 +1,4 @@
-// Room for the materials while the lamp is in use.
+// Makes the materials dock higher while the lamp tool is in use.
 #pragma once
 
 #include "host/host.h"
@@ -9,7 +9,7 @@
 namespace lampblack
 {
 
-/// Makes the materials' dock taller at the cost of those in its area, and gives the room back.
+/// Takes the height from the other docks of the same area, and restores it afterwards.
 class DockRoom : public QObject
 {
     Q_OBJECT
@@ -18,8 +18,8 @@ public:
     explicit DockRoom(Host& host, QObject* parent = nullptr);
 
 private:
-    void take();
-    void giveBack();
+    void makeRoom();
+    void restoreHeights();
 
     struct Height
     {
@@ -27,7 +27,7 @@ private:
         int pixels;
     };
     Host& mHost;
-    QList<Height> mBefore; ///< of every dock of the area, while we have the room
+    QList<Height> mBefore; ///< heights of all docks of the area; empty while none is changed
 };
 
 } // namespace lampblack

@@ -7,114 +7,114 @@ namespace lampblack
 
 namespace
 {
-constexpr int MostKept = 256 * 1024; // KiB
+constexpr int MaxKiB = 256 * 1024;
 }
 
 FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
-    : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mExports(MostKept)
+    : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mExports(MaxKiB)
 {
-    connect(&host, &Host::frameChanged, this, &FrameFeed::wantCurrent);
-    connect(&host, &Host::frameExported, this, &FrameFeed::take);
-    connect(&host, &Host::exportFailed, this, &FrameFeed::failed);
+    connect(&host, &Host::frameChanged, this, &FrameFeed::requestCurrent);
+    connect(&host, &Host::frameExported, this, &FrameFeed::onFrameExported);
+    connect(&host, &Host::exportFailed, this, &FrameFeed::frameFailed);
     connect(&host, &Host::drawingChanged, this,
             [this](int frame)
             {
-                forget(frame);
-                wantCurrent();
+                invalidate(frame);
+                requestCurrent();
             });
     const auto startOver = [this]
     {
-        forgetAll();
-        wantCurrent();
+        invalidateAll();
+        requestCurrent();
     };
-    connect(&worker, &Worker::frameWanted, this,
+    connect(&worker, &Worker::frameNeeded, this,
             [this](int frame) { mHost.requestFrames(frame, frame, litLayers()); });
     connect(&host, &Host::layersChanged, this, startOver);
     connect(&host, &Host::projectOpened, this, startOver);
     connect(&document, &SceneDocument::layerRolesChanged, this, startOver);
 }
 
-void FrameFeed::setOn(bool on)
+void FrameFeed::setEnabled(bool enabled)
 {
-    mOn = on;
-    if (on)
-        wantCurrent();
+    mEnabled = enabled;
+    if (enabled)
+        requestCurrent();
     else
         mHost.cancelRequests();
 }
 
 FrameExport FrameFeed::lastExport(int frame) const
 {
-    const FrameExport* kept = mFresh.contains(frame) ? mExports.object(frame) : nullptr;
+    const FrameExport* kept = mUpToDate.contains(frame) ? mExports.object(frame) : nullptr;
     return kept ? *kept : FrameExport{};
 }
 
 QStringList FrameFeed::litLayers() const
 {
     const QVector<Layer> layers = mHost.layers();
-    if (layers.isEmpty()) // they cannot be named
+    if (layers.isEmpty())
         return {};
-    const QStringList lit = stackLayers(layers, mDocument.layerRoles()).lit;
-    // Nothing to light is no layer at all, not every one.
+    const QStringList lit = sortLayers(layers, mDocument.layerRoles()).lit;
+    // An empty list would mean all layers; one empty name means none.
     return lit.isEmpty() ? QStringList(QString()) : lit;
 }
 
-void FrameFeed::wantAll(int first, int last)
+void FrameFeed::requestAll(int first, int last)
 {
     for (int frame = first; frame <= last; ++frame)
     {
-        if (isFresh(frame))
-            Q_EMIT freshened(frame);
+        if (isUpToDate(frame))
+            Q_EMIT frameSent(frame);
         else
             mHost.requestFrames(frame, frame, litLayers());
     }
 }
 
-void FrameFeed::stopWanting()
+void FrameFeed::cancelAll()
 {
     mHost.cancelRequests();
-    wantCurrent();
+    requestCurrent();
 }
 
-void FrameFeed::wantCurrent()
+void FrameFeed::requestCurrent()
 {
-    if (!mOn)
+    if (!mEnabled)
         return;
     const int frame = mHost.currentFrame();
-    if (isFresh(frame))
-        Q_EMIT freshened(frame);
+    if (isUpToDate(frame))
+        Q_EMIT frameSent(frame);
     else
         mHost.requestFrames(frame, frame, litLayers());
 }
 
-void FrameFeed::take(const FrameExport& frame)
+void FrameFeed::onFrameExported(const FrameExport& frame)
 {
     if (frame.layers != litLayers())
         return;
     mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage);
-    mFresh.insert(frame.frame);
+    mUpToDate.insert(frame.frame);
     const int cost = int(frame.image.sizeInBytes() / 1024) + 1;
     mExports.insert(frame.frame, new FrameExport(frame), cost);
-    Q_EMIT freshened(frame.frame);
+    Q_EMIT frameSent(frame.frame);
 }
 
-void FrameFeed::forget(int frame)
+void FrameFeed::invalidate(int frame)
 {
-    mFresh.remove(frame);
+    mUpToDate.remove(frame);
     mExports.remove(frame);
-    Q_EMIT staled(frame);
+    Q_EMIT frameOutdated(frame);
 }
 
-void FrameFeed::forgetAll()
+void FrameFeed::invalidateAll()
 {
-    QSet<int> stale;
-    mFresh.swap(stale);
-    stale.insert(mHost.currentFrame());
+    QSet<int> outdated;
+    mUpToDate.swap(outdated);
+    outdated.insert(mHost.currentFrame());
     mExports.clear();
     mHost.cancelRequests();
     mWorker.dropAllFrames();
-    for (const int frame : qAsConst(stale))
-        Q_EMIT staled(frame);
+    for (const int frame : qAsConst(outdated))
+        Q_EMIT frameOutdated(frame);
 }
 
 } // namespace lampblack

@@ -1,4 +1,4 @@
-// Drawings on their way from the host to the worker.
+// Sends drawings from the host to the worker.
 #pragma once
 
 #include "host/host.h"
@@ -11,8 +11,8 @@
 namespace lampblack
 {
 
-/// Keeps the worker's idea of each frame true: exports what is looked at or asked for, again once it
-/// has changed, and never twice while it has not.
+/// Exports the current frame and requested frames, and gives them to the worker. A frame is exported again
+/// only after its drawing has changed.
 class FrameFeed : public QObject
 {
     Q_OBJECT
@@ -20,38 +20,38 @@ class FrameFeed : public QObject
 public:
     FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObject* parent = nullptr);
 
-    /// While off, nothing is exported.
-    void setOn(bool on);
+    /// While disabled, nothing is exported.
+    void setEnabled(bool enabled);
 
-    /// Whether the worker was given the frame as it is now.
-    bool isFresh(int frame) const { return mFresh.contains(frame); }
+    /// Whether the worker has the frame as it is drawn now.
+    bool isUpToDate(int frame) const { return mUpToDate.contains(frame); }
 
-    /// The last export of a frame, if it is still kept and fresh; its image is null otherwise.
+    /// The last export of a frame. Its image is null if it is out of date or no longer cached.
     FrameExport lastExport(int frame) const;
 
-    /// The layers that are lit; empty: all that are visible, for they cannot be told apart.
+    /// Names of the lit layers. Empty if the host cannot name layers: then all visible ones are lit.
     QStringList litLayers() const;
 
-    /// Have all of first..last exported; freshened() comes for each, at once for those that are fresh.
-    void wantAll(int first, int last);
-    void stopWanting();
+    /// Export frames first..last. frameSent() is emitted for each, at once for those that are up to date.
+    void requestAll(int first, int last);
+    void cancelAll();
 
 Q_SIGNALS:
-    void freshened(int frame);
-    void staled(int frame);
-    void failed(int frame, const lampblack::UserError& error);
+    void frameSent(int frame);     ///< the worker has the frame as it is drawn now
+    void frameOutdated(int frame); ///< the frame's drawing has changed
+    void frameFailed(int frame, const lampblack::UserError& error);
 
 private:
-    void wantCurrent();
-    void take(const FrameExport& frame);
-    void forget(int frame);
-    void forgetAll();
+    void requestCurrent();
+    void onFrameExported(const FrameExport& frame);
+    void invalidate(int frame);
+    void invalidateAll();
 
     Host& mHost;
     Worker& mWorker;
     SceneDocument& mDocument;
-    bool mOn = false;
-    QSet<int> mFresh;
+    bool mEnabled = false;
+    QSet<int> mUpToDate;
     QCache<int, FrameExport> mExports; ///< cost in KiB
 };
 

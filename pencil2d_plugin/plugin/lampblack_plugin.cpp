@@ -1,4 +1,4 @@
-// The way in: Qt loads this into Pencil2D when QT_QPA_GENERIC_PLUGINS names "lampblack".
+// The entry point: Qt loads this plugin into Pencil2D if QT_QPA_GENERIC_PLUGINS names "lampblack".
 #include "host/host.h"
 #include "plugin/studio.h"
 #include "worker/worker_session.h"
@@ -11,7 +11,7 @@
 namespace lampblack
 {
 
-/// Waits for the main window: plugins are made before there is any.
+/// Waits for the main window: Qt creates plugins before there is one.
 class WindowWatch : public QObject
 {
 public:
@@ -20,7 +20,7 @@ public:
         if (event->type() == QEvent::Show && qobject_cast<QMainWindow*>(watched) != nullptr)
         {
             qApp->removeEventFilter(this);
-            // Once the window is up and painted: a start that is not ours to slow down.
+            // Queued, so that the window is painted first and Pencil2D starts as fast as without us.
             QMetaObject::invokeMethod(this, &WindowWatch::begin, Qt::QueuedConnection);
         }
         return false;
@@ -33,7 +33,7 @@ private:
         if (host == nullptr)
             return;
         auto* studio = new Studio(*host, std::make_unique<WorkerSession>(), qApp);
-        // Widgets of ours die with the window: what binds to them must be gone before.
+        // Our widgets are destroyed with the window. What refers to them must be destroyed before.
         connect(qApp, &QCoreApplication::aboutToQuit, this,
                 [host, studio]
                 {
@@ -53,7 +53,7 @@ public:
     {
         if (key != QLatin1String("lampblack") || qobject_cast<QApplication*>(qApp) == nullptr)
             return nullptr;
-        // Qt deletes what we return, last of all: a parent would have done so before.
+        // No parent, because Qt deletes the returned object itself.
         auto* watch = new WindowWatch;
         qApp->installEventFilter(watch);
         return watch;

@@ -1,4 +1,4 @@
-// The layers of a drawing, sorted by what the light makes of them.
+// The layers of a drawing, sorted into lit and unlit ones.
 #pragma once
 
 #include "host/host.h"
@@ -10,13 +10,13 @@ namespace lampblack
 /// Names of layers, top first.
 struct LayerStack
 {
-    QStringList above; ///< shown as drawn, over what is lit
+    QStringList above; ///< shown as drawn, over the lit layers
     QStringList lit;   ///< characters and their lines
-    QStringList below; ///< shown as drawn, under what is lit
+    QStringList below; ///< shown as drawn, under the lit layers
 };
 
-/// Sorts what is visible, as the worker's command line does. Sources that were hidden behind the layer of
-/// results are lit all the same if they have a role; the layer of results is left out.
-LayerStack stackLayers(const QVector<Layer>& layers, const LayerRoles& roles);
+/// Sort the visible layers by the rules of the worker's command line. The result layer is left out. While it
+/// is visible, hidden layers are lit too if they have a role: it was rendered from them.
+LayerStack sortLayers(const QVector<Layer>& layers, const LayerRoles& roles);
 
 } // namespace lampblack

@@ -20,24 +20,24 @@ const QString Character = QStringLiteral("character");
 LitLayer::LitLayer(Host& host, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mDocument(document)
 {
-    mCopier.setMaxThreadCount(1);
-    connect(&host, &Host::layerDelivered, this, &LitLayer::settle);
-    connect(&host, &Host::layerFailed, this, &LitLayer::fail);
+    mCopyThread.setMaxThreadCount(1);
+    connect(&host, &Host::layerDelivered, this, &LitLayer::onLayerDelivered);
+    connect(&host, &Host::layerFailed, this, &LitLayer::reportFailure);
     connect(&host, &Host::projectSaved, this, [this] { mUnsaved = false; });
     connect(&host, &Host::projectOpened, this,
             [this]
             {
                 mUnsaved = false;
-                mAtWork = false;
+                mDelivering = false;
             });
 }
 
 LitLayer::~LitLayer()
 {
-    mCopier.waitForDone();
+    mCopyThread.waitForDone();
 }
 
-bool LitLayer::isThere() const
+bool LitLayer::exists() const
 {
     const QVector<Layer> layers = mHost.layers();
     return mDocument.layerRoles().value(Name) == Result &&
@@ -48,58 +48,58 @@ void LitLayer::deliver(const QMap<int, QString>& pictures, bool hideSources)
 {
     mPictures = pictures;
     mHideSources = hideSources;
-    mAtWork = true;
+    mDelivering = true;
     const QVector<Layer> layers = mHost.layers();
-    const bool taken =
+    const bool hasLayer =
         std::any_of(layers.begin(), layers.end(), [](const Layer& layer) { return layer.name == Name; });
-    if (taken && !isThere())
+    if (hasLayer && !exists())
     {
-        fail({tr("The project has a layer \"%1\" that Lampblack did not make.").arg(Name),
-              tr("Rename it or delete it, then render again."),
-              {}});
+        reportFailure({tr("The project has a layer \"%1\" that Lampblack did not make.").arg(Name),
+                       tr("Rename it or delete it, then render again."),
+                       {}});
         return;
     }
     const QString project = mHost.projectPath();
     if (mBackedUp.contains(project))
     {
-        afterBackup(project, {});
+        onBackupDone(project, {});
         return;
     }
-    mCopier.start(
+    mCopyThread.start(
         [this, project]
         {
-            const QString fault = backUp(project);
+            const QString error = backUpProject(project);
             QMetaObject::invokeMethod(
-                this, [this, project, fault] { afterBackup(project, fault); }, Qt::QueuedConnection);
+                this, [this, project, error] { onBackupDone(project, error); }, Qt::QueuedConnection);
         });
 }
 
-void LitLayer::afterBackup(const QString& project, const QString& fault)
+void LitLayer::onBackupDone(const QString& project, const QString& error)
 {
-    if (!mAtWork || project != mHost.projectPath())
+    if (!mDelivering || project != mHost.projectPath())
         return;
-    if (!fault.isEmpty())
+    if (!error.isEmpty())
     {
-        fail({tr("The project could not be backed up, so no layer was put into it."),
-              tr("See that there is space and that you may write beside the project."), fault});
+        reportFailure({tr("The project could not be backed up, so no layer was put into it."),
+                       tr("See that there is space and that you may write beside the project."), error});
         return;
     }
     mBackedUp.insert(project);
     mHost.deliverLayer(Name, mPictures);
 }
 
-void LitLayer::settle()
+void LitLayer::onLayerDelivered()
 {
-    if (!mAtWork)
+    if (!mDelivering)
         return;
-    mAtWork = false;
+    mDelivering = false;
     mUnsaved = true;
     LayerRoles roles = mDocument.layerRoles();
-    const QStringList sources = stackLayers(mHost.layers(), roles).lit;
+    const QStringList sources = sortLayers(mHost.layers(), roles).lit;
     roles.insert(Name, Result);
     if (mHideSources)
     {
-        // A role keeps a hidden layer among the sources.
+        // Only hidden layers with a role are lit, see sortLayers().
         for (const QString& source : sources)
         {
             if (!roles.contains(source))
@@ -112,11 +112,11 @@ void LitLayer::settle()
     Q_EMIT delivered();
 }
 
-void LitLayer::fail(const UserError& error)
+void LitLayer::reportFailure(const UserError& error)
 {
-    if (!mAtWork)
+    if (!mDelivering)
         return;
-    mAtWork = false;
+    mDelivering = false;
     Q_EMIT failed(error);
 }
 

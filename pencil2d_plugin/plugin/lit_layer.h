@@ -1,4 +1,4 @@
-// The layer of results, "Lit": rendered frames, back in the drawing.
+// The result layer, "Lit": rendered frames as a layer of the project.
 #pragma once
 
 #include "host/host.h"
@@ -19,14 +19,14 @@ public:
     LitLayer(Host& host, SceneDocument& document, QObject* parent = nullptr);
     ~LitLayer() override;
 
-    /// Whether the layer in the project is one that we made.
-    bool isThere() const;
+    /// Whether the project has the layer, and Lampblack made it.
+    bool exists() const;
 
-    /// Replace it by these PNG files, by frame; before the first time in a project, back the project up. With
-    /// `hideSources`, what it was made from is hidden once it is there. delivered() or failed() tells.
+    /// Replace the layer by these PNG files, keyed by frame. The project is backed up before its first layer.
+    /// With `hideSources` the lit layers are hidden afterwards. Ends with delivered() or failed().
     void deliver(const QMap<int, QString>& pictures, bool hideSources);
 
-    /// Put there, and not saved since.
+    /// Whether the layer was delivered after the project was last saved.
     bool isUnsaved() const { return mUnsaved; }
 
 Q_SIGNALS:
@@ -34,18 +34,18 @@ Q_SIGNALS:
     void failed(const lampblack::UserError& error);
 
 private:
-    void afterBackup(const QString& project, const QString& fault);
-    void settle();
-    void fail(const UserError& error);
+    void onBackupDone(const QString& project, const QString& error);
+    void onLayerDelivered();
+    void reportFailure(const UserError& error);
 
     Host& mHost;
     SceneDocument& mDocument;
-    QThreadPool mCopier;
-    QSet<QString> mBackedUp; ///< projects, in this session
+    QThreadPool mCopyThread;
+    QSet<QString> mBackedUp; ///< paths of the projects that this session has backed up
     QMap<int, QString> mPictures;
     bool mHideSources = false;
     bool mUnsaved = false;
-    bool mAtWork = false;
+    bool mDelivering = false;
 };
 
 } // namespace lampblack

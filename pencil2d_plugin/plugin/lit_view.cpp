@@ -11,11 +11,11 @@ namespace lampblack
 namespace
 {
 
-constexpr int MostKept = 256 * 1024; // KiB
-constexpr double LongestSide = 4096;
+constexpr int MaxKiB = 256 * 1024;
+constexpr double MaxSide = 4096; // pixels
 
-/// The part of an image of `size` that is in sight of `widget`, grown to whole pixels.
-QRectF cropInSight(const QTransform& imageToWidget, const QWidget& widget, const QSize& size)
+/// The part of an image of `size` that `widget` shows, grown to whole pixels.
+QRectF visibleCrop(const QTransform& imageToWidget, const QWidget& widget, const QSize& size)
 {
     bool invertible = false;
     const QTransform back = imageToWidget.inverted(&invertible);
@@ -28,67 +28,67 @@ QRectF cropInSight(const QTransform& imageToWidget, const QWidget& widget, const
 QSize deviceSize(const QTransform& imageToWidget, const QWidget& widget, const QRectF& crop)
 {
     const double zoom = std::sqrt(std::abs(imageToWidget.determinant())) * widget.devicePixelRatioF();
-    const double scale = std::min({zoom, LongestSide / crop.width(), LongestSide / crop.height()});
-    return {qBound(1, qCeil(crop.width() * scale), int(LongestSide)),
-            qBound(1, qCeil(crop.height() * scale), int(LongestSide))};
+    const double scale = std::min({zoom, MaxSide / crop.width(), MaxSide / crop.height()});
+    return {qBound(1, qCeil(crop.width() * scale), int(MaxSide)),
+            qBound(1, qCeil(crop.height() * scale), int(MaxSide))};
 }
 
 } // namespace
 
-LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, Surroundings& around, LampTool& tool,
+LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, LampTool& tool,
                  QObject* parent)
-    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mAround(around), mTool(tool),
-      mKept(MostKept)
+    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mUnlit(unlit), mTool(tool),
+      mPictures(MaxKiB)
 {
-    mSoon.setSingleShot(true);
-    mSoon.setInterval(0);
-    connect(&mSoon, &QTimer::timeout, this, &LitView::ask);
-    connect(&host, &Host::viewChanged, this, &LitView::update);
-    connect(&host, &Host::frameChanged, this, &LitView::update);
-    connect(&host, &Host::toolActivated, this, &LitView::update);
-    connect(&feed, &FrameFeed::freshened, this,
+    mRequestTimer.setSingleShot(true);
+    mRequestTimer.setInterval(0);
+    connect(&mRequestTimer, &QTimer::timeout, this, &LitView::requestPicture);
+    connect(&host, &Host::viewChanged, this, &LitView::onViewChanged);
+    connect(&host, &Host::frameChanged, this, &LitView::onViewChanged);
+    connect(&host, &Host::toolActivated, this, &LitView::onViewChanged);
+    connect(&feed, &FrameFeed::frameSent, this,
             [this](int frame)
             {
                 if (frame == mHost.currentFrame())
-                    update();
+                    onViewChanged();
             });
-    connect(&feed, &FrameFeed::staled, this,
+    connect(&feed, &FrameFeed::frameOutdated, this,
             [this](int frame)
             {
-                mKept.remove(frame);
+                mPictures.remove(frame);
                 if (frame == mHost.currentFrame())
                     mTool.clearPicture();
             });
-    connect(&around, &Surroundings::arrived, this,
+    connect(&unlit, &UnlitLayers::loaded, this,
             [this](int frame)
             {
                 if (frame == mHost.currentFrame())
-                    show(frame);
+                    showCached(frame);
             });
     connect(&tool, &LampTool::viewModeChanged, this,
             [this]
             {
-                mKept.clear();
+                mPictures.clear();
                 mTool.clearPicture();
-                update();
+                onViewChanged();
             });
-    connect(&worker, &Worker::imageArrived, this, &LitView::take);
+    connect(&worker, &Worker::imageArrived, this, &LitView::onImageArrived);
     host.canvas()->installEventFilter(this);
 }
 
 bool LitView::eventFilter(QObject*, QEvent* event)
 {
     if (event->type() == QEvent::Resize)
-        update();
+        onViewChanged();
     return false;
 }
 
-bool LitView::isLooking() const
+bool LitView::isShowing() const
 {
     return mTool.isActive() && mTool.viewMode() != ViewMode::Flat && mHost.can(Host::Ability::View);
 }
 
-Show LitView::wanted() const
+Show LitView::selectedShow() const
 {
     switch (mTool.viewMode())
     {
@@ -101,62 +101,62 @@ Show LitView::wanted() const
     }
 }
 
-void LitView::update()
+void LitView::onViewChanged()
 {
     const int frame = mHost.currentFrame();
     if (frame != mShownFrame)
     {
         mShownFrame = frame;
-        show(frame);
+        showCached(frame);
     }
-    mSoon.start();
+    mRequestTimer.start();
 }
 
-void LitView::show(int frame)
+void LitView::showCached(int frame)
 {
-    const LookImage* kept = mKept.object(frame);
-    if (!isLooking() || !kept || !mWorker.isCurrent(*kept) || !mAround.isKnown(frame))
+    const PreviewImage* cached = mPictures.object(frame);
+    if (!isShowing() || !cached || !mWorker.isCurrent(*cached) || !mUnlit.isLoaded(frame))
     {
         mTool.clearPicture();
         return;
     }
-    mTool.setSurroundings(mAround.below(frame), mAround.above(frame));
-    mTool.setPicture(*kept);
+    mTool.setUnlitLayers(mUnlit.below(frame), mUnlit.above(frame));
+    mTool.setPicture(*cached);
 }
 
-void LitView::ask()
+void LitView::requestPicture()
 {
     const int frame = mHost.currentFrame();
     const std::optional<QTransform> canvasToWidget = mHost.canvasToWidget();
-    if (!isLooking() || !canvasToWidget)
+    if (!isShowing() || !canvasToWidget)
     {
-        mWorker.stopLooking();
+        mWorker.cancelPreview();
         mTool.clearPicture();
         return;
     }
     const FrameExport exported = mFeed.lastExport(frame);
-    if (!mFeed.isFresh(frame))
+    if (!mFeed.isUpToDate(frame))
         return;
     mTool.setFrame(exported);
     const QSize size = exported.image.isNull() ? mHost.canvasSize() : exported.image.size();
     const QTransform imageToWidget = exported.canvasToImage.inverted() * *canvasToWidget;
-    const QRectF crop = cropInSight(imageToWidget, *mHost.canvas(), size);
+    const QRectF crop = visibleCrop(imageToWidget, *mHost.canvas(), size);
     if (crop.isEmpty())
-        mWorker.stopLooking();
+        mWorker.cancelPreview();
     else
-        mWorker.look(frame, wanted(), crop, deviceSize(imageToWidget, *mHost.canvas(), crop));
+        mWorker.requestPreview(frame, selectedShow(), crop, deviceSize(imageToWidget, *mHost.canvas(), crop));
 }
 
-void LitView::take(const LookImage& image)
+void LitView::onImageArrived(const PreviewImage& image)
 {
-    if (!isLooking() || image.show != wanted())
+    if (!isShowing() || image.show != selectedShow())
         return;
-    if (image.frame == mHost.currentFrame() && mAround.isKnown(image.frame))
+    if (image.frame == mHost.currentFrame() && mUnlit.isLoaded(image.frame))
     {
-        mTool.setSurroundings(mAround.below(image.frame), mAround.above(image.frame));
+        mTool.setUnlitLayers(mUnlit.below(image.frame), mUnlit.above(image.frame));
         mTool.setPicture(image);
     }
-    mKept.insert(image.frame, new LookImage(image), int(image.picture.sizeInBytes() / 1024) + 1);
+    mPictures.insert(image.frame, new PreviewImage(image), int(image.picture.sizeInBytes() / 1024) + 1);
 }
 
 } // namespace lampblack

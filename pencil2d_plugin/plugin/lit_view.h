@@ -1,9 +1,9 @@
-// What the artist looks at, asked of the worker and shown.
+// Shows the current frame as the worker lights it.
 #pragma once
 
 #include "host/host.h"
 #include "plugin/frame_feed.h"
-#include "plugin/surroundings.h"
+#include "plugin/unlit_layers.h"
 #include "tool/lamp_tool.h"
 #include "worker/worker.h"
 
@@ -13,34 +13,34 @@
 namespace lampblack
 {
 
-/// Asks for the crop in sight at device resolution, and hands the pictures that come to the tool.
-/// Pictures of frames seen before are kept, so that playback shows them lit; what is out of date is
-/// shown as drawn, and so is a frame whose surroundings are not known yet.
+/// Requests the visible crop at device resolution, and passes the pictures that arrive to the tool. Pictures
+/// are cached by frame, so that playback is lit. A frame is shown as drawn while its picture is out of date
+/// or its unlit layers are not loaded.
 class LitView : public QObject
 {
     Q_OBJECT
 
 public:
-    LitView(Host& host, Worker& worker, FrameFeed& feed, Surroundings& around, LampTool& tool,
+    LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, LampTool& tool,
             QObject* parent = nullptr);
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    void update();
-    void ask();
-    void take(const LookImage& image);
-    void show(int frame);
-    bool isLooking() const;
-    Show wanted() const;
+    void onViewChanged();
+    void requestPicture();
+    void onImageArrived(const PreviewImage& image);
+    void showCached(int frame);
+    bool isShowing() const;
+    Show selectedShow() const;
 
     Host& mHost;
     Worker& mWorker;
     FrameFeed& mFeed;
-    Surroundings& mAround;
+    UnlitLayers& mUnlit;
     LampTool& mTool;
-    QTimer mSoon;
-    QCache<int, LookImage> mKept; ///< by frame, cost in KiB
+    QTimer mRequestTimer;                ///< joins the changes of one turn of the event loop into one request
+    QCache<int, PreviewImage> mPictures; ///< by frame, cost in KiB
     int mShownFrame = 0;
 };
 

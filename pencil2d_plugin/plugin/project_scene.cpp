@@ -9,19 +9,19 @@ namespace lampblack
 ProjectScene::ProjectScene(Host& host, SceneDocument& document, const LitLayer& layer, QObject* parent)
     : QObject(parent), mHost(host), mDocument(document), mLayer(layer)
 {
-    connect(&host, &Host::projectOpened, this, &ProjectScene::open);
+    connect(&host, &Host::projectOpened, this, &ProjectScene::loadScene);
     connect(&host, &Host::projectSaved, this,
             [this](const QString& path)
             {
-                // A project that was never lit gets no file beside it.
-                if (!mFresh || mDocument.isModified())
+                // A project that was never lit gets no scene file.
+                if (!mUntouched || mDocument.isModified())
                     mDocument.save(path);
             });
     connect(&host, &Host::frameExported, this,
-            [this](const FrameExport& frame) { fitCanvas(frame.image.size()); });
+            [this](const FrameExport& frame) { fitToCanvas(frame.image.size()); });
     host.window()->installEventFilter(this);
     host.guardLeaving([this] { return mayLeave(); });
-    open(host.projectPath());
+    loadScene(host.projectPath());
 }
 
 ProjectScene::~ProjectScene()
@@ -39,9 +39,9 @@ bool ProjectScene::eventFilter(QObject* watched, QEvent* event)
 
 bool ProjectScene::mayLeave()
 {
-    const bool isLosing = mDocument.isModified() || mLayer.isUnsaved();
-    // With changes of its own Pencil2D asks to save, and the light is saved with the project.
-    if (!isLosing || mHost.projectPath().isEmpty() || mHost.isModified())
+    const bool hasUnsaved = mDocument.isModified() || mLayer.isUnsaved();
+    // If the project itself is modified, Pencil2D asks, and the scene is saved with the project.
+    if (!hasUnsaved || mHost.projectPath().isEmpty() || mHost.isModified())
         return true;
     const QString title = mLayer.isUnsaved() ? tr("Save the lit layer?") : tr("Save the light?");
     const QString question =
@@ -50,27 +50,27 @@ bool ProjectScene::mayLeave()
     const auto answer = QMessageBox::question(mHost.window(), title, question,
                                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
                                               QMessageBox::Save);
-    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && save());
+    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && saveAll());
 }
 
-bool ProjectScene::save()
+bool ProjectScene::saveAll()
 {
     const bool saved = !mLayer.isUnsaved() || mHost.saveProject();
     return saved && mDocument.save(mHost.projectPath());
 }
 
-void ProjectScene::open(const QString& path)
+void ProjectScene::loadScene(const QString& path)
 {
-    mFresh = path.isEmpty() || !mDocument.load(path);
-    if (mFresh)
+    mUntouched = path.isEmpty() || !mDocument.load(path);
+    if (mUntouched)
         mDocument.reset(defaultScene(mHost.canvasSize().expandedTo(QSize(1, 1))));
 }
 
-void ProjectScene::fitCanvas(const QSize& size)
+void ProjectScene::fitToCanvas(const QSize& size)
 {
     if (mDocument.scene().canvas == size || size.isEmpty())
         return;
-    if (mFresh && !mDocument.isModified())
+    if (mUntouched && !mDocument.isModified())
         mDocument.reset(defaultScene(size));
 }
 

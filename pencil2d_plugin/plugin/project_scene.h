@@ -1,4 +1,4 @@
-// The scene follows its project: loaded with it, saved with it, never lost in silence.
+// Loads and saves the scene together with its project.
 #pragma once
 
 #include "host/host.h"
@@ -16,21 +16,21 @@ public:
     ProjectScene(Host& host, SceneDocument& document, const LitLayer& layer, QObject* parent = nullptr);
     ~ProjectScene() override;
 
-    /// Asks before the window closes, or another project comes, over light or a layer of ours that the
-    /// project's own question would not cover.
+    /// Asks before the window closes if the scene or the result layer is not saved and Pencil2D would not
+    /// ask.
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    /// False keeps the project.
+    /// Ask the artist, if there is something to lose; false keeps the project open.
     bool mayLeave();
-    void open(const QString& path);
-    bool save();
-    void fitCanvas(const QSize& size);
+    void loadScene(const QString& path);
+    bool saveAll();
+    void fitToCanvas(const QSize& size);
 
     Host& mHost;
     SceneDocument& mDocument;
     const LitLayer& mLayer;
-    bool mFresh = true; ///< nobody has set this scene yet: it may follow the canvas's size
+    bool mUntouched = true; ///< the project has no scene file: the default scene may follow the canvas size
 };
 
 } // namespace lampblack

@@ -13,48 +13,48 @@ namespace lampblack
 
 namespace
 {
-constexpr int MaxFaults = 40;
+constexpr int MaxErrors = 40;
 }
 
 ShotJob::ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, SceneDocument& document,
                  QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mLayer(layer), mDocument(document)
 {
-    connect(&feed, &FrameFeed::freshened, this, &ShotJob::gave);
-    connect(&feed, &FrameFeed::staled, this,
+    connect(&feed, &FrameFeed::frameSent, this, &ShotJob::onFrameSent);
+    connect(&feed, &FrameFeed::frameOutdated, this,
             [this](int frame)
             {
-                mMade.remove(frame);
-                mEdited.insert(frame);
+                mUpToDate.remove(frame);
+                mOutdated.insert(frame);
             });
-    connect(&feed, &FrameFeed::failed, this,
+    connect(&feed, &FrameFeed::frameFailed, this,
             [this](int frame, const UserError& error)
             {
-                if (mWaiting.contains(frame))
-                    mFaults.append(error.what);
-                gave(frame);
+                if (mUnsent.contains(frame))
+                    mErrors.append(error.what);
+                onFrameSent(frame);
             });
     connect(&host, &Host::projectOpened, this,
             [this]
             {
-                mMade.clear();
-                mMakingLayer = false;
+                mUpToDate.clear();
+                mDeliveringLayer = false;
                 cancel();
             });
     connect(&layer, &LitLayer::delivered, this,
             [this]
             {
-                if (mMakingLayer)
-                    end(tr("%1 lit frames are in the layer \"%2\" and in %3")
-                            .arg(mDone.size())
-                            .arg(resultLayer(), outputFolder()));
+                if (mDeliveringLayer)
+                    finish(tr("%1 lit frames are in the layer \"%2\" and in %3")
+                               .arg(mRendered.size())
+                               .arg(resultLayer(), outputFolder()));
             });
     connect(&layer, &LitLayer::failed, this,
             [this](const UserError& error)
             {
-                if (!mMakingLayer)
+                if (!mDeliveringLayer)
                     return;
-                endWithFiles();
+                finishWithFiles();
                 Q_EMIT problem(error);
             });
     connectWorker();
@@ -65,38 +65,38 @@ void ShotJob::connectWorker()
     connect(&mWorker, &Worker::framesLit, this,
             [this](int lit, int held)
             {
-                if (mKind != Kind::Surfaces || !mWaiting.isEmpty())
+                if (mKind != Kind::Surfaces || !mUnsent.isEmpty())
                     return;
-                Q_EMIT progressed(mKind, lit, held, tr("Lighting"));
+                Q_EMIT progressChanged(mKind, lit, held, tr("Lighting"));
                 if (lit >= held)
-                    end(tr("%n frame(s) have their surfaces.", nullptr, mTotal));
+                    finish(tr("%n frame(s) have their surfaces.", nullptr, mTotal));
             });
     connect(&mWorker, &Worker::renderProgress, this,
             [this](quint64 job)
             {
-                if (job == mRender && mKind == Kind::Render)
-                    Q_EMIT progressed(mKind, mDone.size(), mTotal, tr("Rendering"));
+                if (job == mRenderJob && mKind == Kind::Render)
+                    Q_EMIT progressChanged(mKind, mRendered.size(), mTotal, tr("Rendering"));
             });
     connect(&mWorker, &Worker::renderFrameDone, this,
             [this](quint64 job, int frame)
             {
-                if (job != mRender || mKind != Kind::Render)
+                if (job != mRenderJob || mKind != Kind::Render)
                     return;
-                mDone.insert(frame);
-                if (!mEdited.contains(frame))
-                    mMade.insert(frame);
+                mRendered.insert(frame);
+                if (!mOutdated.contains(frame))
+                    mUpToDate.insert(frame);
             });
     connect(&mWorker, &Worker::problem, this,
             [this](const UserError& error)
             {
-                if (mKind == Kind::Render && mFaults.size() < MaxFaults)
-                    mFaults.append(error.what + QLatin1Char(' ') + error.details);
+                if (mKind == Kind::Render && mErrors.size() < MaxErrors)
+                    mErrors.append(error.what + QLatin1Char(' ') + error.details);
             });
     connect(&mWorker, &Worker::renderDone, this,
             [this](quint64 job, const QString& outcome)
             {
-                if (job == mRender && mKind == Kind::Render)
-                    rendered(outcome);
+                if (job == mRenderJob && mKind == Kind::Render)
+                    onRenderDone(outcome);
             });
 }
 
@@ -108,19 +108,19 @@ QString ShotJob::outputFolder() const
     return project.absoluteDir().filePath(project.completeBaseName() + QStringLiteral("_lit"));
 }
 
-QString ShotJob::pattern() const
+QString ShotJob::outputPattern() const
 {
-    // A per cent sign would be read as part of the pattern.
+    // A percent sign would be read as part of the pattern.
     const QString name =
         QFileInfo(mHost.projectPath()).completeBaseName().replace(QLatin1Char('%'), QLatin1Char('_'));
     return QDir(outputFolder()).filePath(name + QStringLiteral(".%04d.png"));
 }
 
-QString ShotJob::fileOf(int frame) const
+QString ShotJob::framePath(int frame) const
 {
     constexpr int Digits = 4;
-    return pattern().replace(QStringLiteral("%04d"),
-                             QString::number(frame).rightJustified(Digits, QLatin1Char('0')));
+    return outputPattern().replace(QStringLiteral("%04d"),
+                                   QString::number(frame).rightJustified(Digits, QLatin1Char('0')));
 }
 
 void ShotJob::generateSurfaces()
@@ -151,7 +151,7 @@ void ShotJob::render(FrameRange range, bool hideSources)
         return;
     }
     if (mScene != mDocument.scene())
-        mMade.clear();
+        mUpToDate.clear();
     mScene = mDocument.scene();
     mHideSources = hideSources;
     QVector<int> frames;
@@ -162,115 +162,116 @@ void ShotJob::render(FrameRange range, bool hideSources)
 
 void ShotJob::cancel()
 {
-    // What is left of a job that makes its layer is over in a moment, and best whole.
-    if (mKind == Kind::None || mMakingLayer)
+    // Delivering the layer takes a moment only, and must not be left half done.
+    if (mKind == Kind::None || mDeliveringLayer)
         return;
-    mFeed.stopWanting();
-    if (mRender != 0)
-        mWorker.cancelRender(mRender);
-    end(tr("Cancelled."));
+    mFeed.cancelAll();
+    if (mRenderJob != 0)
+        mWorker.cancelRender(mRenderJob);
+    finish(tr("Cancelled."));
 }
 
 void ShotJob::begin(Kind kind, const QVector<int>& frames)
 {
     mKind = kind;
-    mRender = 0;
+    mRenderJob = 0;
     mFrames = frames;
     mTotal = frames.size();
-    mFaults.clear();
-    mDone.clear();
-    mEdited.clear();
-    mWaiting = QSet<int>(frames.begin(), frames.end());
-    Q_EMIT progressed(mKind, 0, mTotal, tr("Reading the drawings"));
-    mFeed.wantAll(frames.first(), frames.last());
+    mErrors.clear();
+    mRendered.clear();
+    mOutdated.clear();
+    mUnsent = QSet<int>(frames.begin(), frames.end());
+    Q_EMIT progressChanged(mKind, 0, mTotal, tr("Reading the drawings"));
+    mFeed.requestAll(frames.first(), frames.last());
 }
 
-void ShotJob::gave(int frame)
+void ShotJob::onFrameSent(int frame)
 {
-    if (mKind == Kind::None || !mWaiting.remove(frame))
+    if (mKind == Kind::None || !mUnsent.remove(frame))
         return;
-    Q_EMIT progressed(mKind, mTotal - mWaiting.size(), mTotal, tr("Reading the drawings"));
-    if (mWaiting.isEmpty())
-        allGiven();
+    Q_EMIT progressChanged(mKind, mTotal - mUnsent.size(), mTotal, tr("Reading the drawings"));
+    if (mUnsent.isEmpty())
+        onAllFramesSent();
 }
 
-void ShotJob::allGiven()
+void ShotJob::onAllFramesSent()
 {
-    mEdited.clear();
+    mOutdated.clear();
     if (mKind != Kind::Render)
         return;
     QVector<int> missing;
     for (const int frame : qAsConst(mFrames))
     {
-        if (mMade.contains(frame) && QFileInfo::exists(fileOf(frame)))
-            mDone.insert(frame);
+        if (mUpToDate.contains(frame) && QFileInfo::exists(framePath(frame)))
+            mRendered.insert(frame);
         else
             missing.append(frame);
     }
     if (missing.isEmpty())
-        makeLayer();
+        deliverLayer();
     else
-        mRender = mWorker.render(formatFrames(missing), pattern(), mScene.quality);
+        mRenderJob = mWorker.render(formatFrames(missing), outputPattern(), mScene.quality);
 }
 
-void ShotJob::rendered(const QString& outcome)
+void ShotJob::onRenderDone(const QString& outcome)
 {
-    mRender = 0;
-    if (mDone.size() < mTotal)
-        tellMissing();
+    mRenderJob = 0;
+    if (mRendered.size() < mTotal)
+        reportMissing();
     if (outcome == QLatin1String("finished"))
-        makeLayer();
+        deliverLayer();
     else
-        endWithFiles();
+        finishWithFiles();
 }
 
-void ShotJob::makeLayer()
+void ShotJob::deliverLayer()
 {
-    if (mDone.isEmpty() || !mHost.can(Host::Ability::Deliver))
+    if (mRendered.isEmpty() || !mHost.can(Host::Ability::Deliver))
     {
-        endWithFiles();
+        finishWithFiles();
         return;
     }
-    mMakingLayer = true;
-    Q_EMIT progressed(mKind, mTotal, mTotal, tr("Making the layer"));
-    // A part of the animation goes into what is there already.
-    const bool joins = mLayer.isThere();
+    mDeliveringLayer = true;
+    Q_EMIT progressChanged(mKind, mTotal, mTotal, tr("Making the layer"));
+    // A job for a part of the animation keeps the other frames of the layer.
+    const bool keepsOthers = mLayer.exists();
     QMap<int, QString> pictures;
     const int count = mHost.frameCount();
     for (int frame = 1; frame <= count; ++frame)
     {
-        if (mDone.contains(frame) || (joins && !mFrames.contains(frame) && QFileInfo::exists(fileOf(frame))))
-            pictures.insert(frame, fileOf(frame));
+        if (mRendered.contains(frame) ||
+            (keepsOthers && !mFrames.contains(frame) && QFileInfo::exists(framePath(frame))))
+            pictures.insert(frame, framePath(frame));
     }
     mLayer.deliver(pictures, mHideSources && pictures.size() == count);
 }
 
-void ShotJob::tellMissing()
+void ShotJob::reportMissing()
 {
     QVector<int> missing;
     std::copy_if(mFrames.begin(), mFrames.end(), std::back_inserter(missing),
-                 [this](int frame) { return !mDone.contains(frame); });
+                 [this](int frame) { return !mRendered.contains(frame); });
     Q_EMIT problem({tr("%1 of %2 frames could not be lit: %3.")
                         .arg(missing.size())
                         .arg(mTotal)
                         .arg(formatFrames(missing)),
                     tr("The others are done. Render again for those that are missing."),
-                    mFaults.join(QLatin1Char('\n'))});
+                    mErrors.join(QLatin1Char('\n'))});
 }
 
-void ShotJob::endWithFiles()
+void ShotJob::finishWithFiles()
 {
-    end(tr("%1 of %2 frames are in %3").arg(mDone.size()).arg(mTotal).arg(outputFolder()));
+    finish(tr("%1 of %2 frames are in %3").arg(mRendered.size()).arg(mTotal).arg(outputFolder()));
 }
 
-void ShotJob::end(const QString& said)
+void ShotJob::finish(const QString& message)
 {
     const Kind kind = mKind;
     mKind = Kind::None;
-    mWaiting.clear();
-    mRender = 0;
-    mMakingLayer = false;
-    Q_EMIT ended(kind, said);
+    mUnsent.clear();
+    mRenderJob = 0;
+    mDeliveringLayer = false;
+    Q_EMIT finished(kind, message);
 }
 
 } // namespace lampblack

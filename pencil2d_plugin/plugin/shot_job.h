@@ -1,4 +1,4 @@
-// "Generate Surfaces" and "Render All Frames": jobs over the whole animation.
+// "Generate Surfaces" and "Render All Frames": jobs for the whole animation.
 #pragma once
 
 #include "host/host.h"
@@ -11,8 +11,8 @@
 namespace lampblack
 {
 
-/// One job at a time: first every frame is given to the worker, a few each time the artist is idle;
-/// then the worker models and lights them all, or renders them into files, which become a layer.
+/// One job at a time. First all its frames are sent to the worker, a few whenever the artist is idle. Then
+/// the worker prepares and lights them, or renders them into files, which become the result layer.
 class ShotJob : public QObject
 {
     Q_OBJECT
@@ -28,13 +28,13 @@ public:
     ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, SceneDocument& document,
             QObject* parent = nullptr);
 
-    Kind running() const { return mKind; }
+    Kind runningKind() const { return mKind; }
 
     void generateSurfaces();
 
-    /// Into "<project>_lit/<project>.0001.png" and so on, beside the project, and from there into the layer
-    /// of results. What a job that was cancelled has made, and what nothing has changed since, is not made
-    /// again. The sources are hidden, if so wished, where the layer covers the whole animation.
+    /// Render into "<project>_lit/<project>.0001.png" and so on, beside the project, then deliver the files
+    /// as the result layer. Files of earlier jobs that are up to date are not rendered again. With
+    /// `hideSources` the lit layers are hidden if the result layer covers the whole animation.
     void render(FrameRange range, bool hideSources);
 
     void cancel();
@@ -43,22 +43,22 @@ public:
     QString outputFolder() const;
 
 Q_SIGNALS:
-    void progressed(lampblack::ShotJob::Kind kind, int done, int total, const QString& doing);
-    void ended(lampblack::ShotJob::Kind kind, const QString& said);
+    void progressChanged(lampblack::ShotJob::Kind kind, int done, int total, const QString& doing);
+    void finished(lampblack::ShotJob::Kind kind, const QString& message);
     void problem(const lampblack::UserError& error);
 
 private:
     void connectWorker();
     void begin(Kind kind, const QVector<int>& frames);
-    void gave(int frame);
-    void allGiven();
-    void rendered(const QString& outcome);
-    void makeLayer();
-    void tellMissing();
-    void endWithFiles();
-    void end(const QString& said);
-    QString fileOf(int frame) const;
-    QString pattern() const;
+    void onFrameSent(int frame);
+    void onAllFramesSent();
+    void onRenderDone(const QString& outcome);
+    void deliverLayer();
+    void reportMissing();
+    void finishWithFiles();
+    void finish(const QString& message);
+    QString framePath(int frame) const;
+    QString outputPattern() const;
 
     Host& mHost;
     Worker& mWorker;
@@ -66,17 +66,17 @@ private:
     LitLayer& mLayer;
     SceneDocument& mDocument;
     Kind mKind = Kind::None;
-    QVector<int> mFrames; ///< of this job
-    QSet<int> mWaiting;   ///< frames that the worker was not given yet
+    QVector<int> mFrames; ///< frames of this job
+    QSet<int> mUnsent;    ///< frames that the worker does not have yet
     int mTotal = 0;
-    quint64 mRender = 0;
-    QSet<int> mMade;   ///< frames whose files are of the drawings as they are, under mScene
-    QSet<int> mDone;   ///< frames whose files this job has made
-    QSet<int> mEdited; ///< frames drawn upon since this job began
-    Scene mScene;
-    QStringList mFaults;
+    quint64 mRenderJob = 0;
+    QSet<int> mUpToDate; ///< frames whose files show the current drawings under mScene
+    QSet<int> mRendered; ///< frames whose files exist for this job
+    QSet<int> mOutdated; ///< frames whose drawings changed during this job
+    Scene mScene;        ///< the scene of the last render job
+    QStringList mErrors;
     bool mHideSources = false;
-    bool mMakingLayer = false;
+    bool mDeliveringLayer = false;
 };
 
 } // namespace lampblack

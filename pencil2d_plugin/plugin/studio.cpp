@@ -11,29 +11,29 @@ Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
     : QObject(parent), mHost(host), mWorker(std::move(worker)),
       mTool(std::make_unique<LampTool>(host, *mWorker, mDocument)),
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
-      mAround(std::make_unique<Surroundings>(host, *mFeed, mDocument)),
-      mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mAround, *mTool)),
+      mUnlit(std::make_unique<UnlitLayers>(host, *mFeed, mDocument)),
+      mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mUnlit, *mTool)),
       mLayer(std::make_unique<LitLayer>(host, mDocument)),
       mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, *mLayer, mDocument)),
-      mProject(std::make_unique<ProjectScene>(host, mDocument, *mLayer)), mRoom(host)
+      mProject(std::make_unique<ProjectScene>(host, mDocument, *mLayer)), mMaterialsRoom(host)
 {
     setObjectName(QStringLiteral("lampblack"));
-    connect(mTool.get(), &LampTool::activeChanged, this, &Studio::follow);
-    connect(&mDocument, &SceneDocument::sceneChanged, this, &Studio::send);
+    connect(mTool.get(), &LampTool::activeChanged, this, &Studio::onToolActive);
+    connect(&mDocument, &SceneDocument::sceneChanged, this, &Studio::sendScene);
     connect(mWorker.get(), &Worker::imageArrived, this,
-            [this](const LookImage& image)
+            [this](const PreviewImage& image)
             {
                 if (image.frame == mHost.currentFrame())
-                    mShown = image;
+                    mShownImage = image;
             });
-    connect(mWorker.get(), &Worker::paletteArrived, this, &Studio::takePalette);
-    connect(mFeed.get(), &FrameFeed::freshened, mWorker.get(),
+    connect(mWorker.get(), &Worker::paletteArrived, this, &Studio::onPaletteArrived);
+    connect(mFeed.get(), &FrameFeed::frameSent, mWorker.get(),
             [this](int frame)
             {
                 if (frame == mHost.currentFrame() && mTool->isActive())
-                    mWorker->askPalette(frame);
+                    mWorker->requestPalette(frame);
             });
-    connect(&host, &Host::projectOpened, this, [this] { mColours.clear(); });
+    connect(&host, &Host::projectOpened, this, [this] { mColourPixels.clear(); });
     connectJobs();
 }
 
@@ -44,8 +44,8 @@ Studio::~Studio()
 
 bool Studio::isSettled() const
 {
-    return mShown.converged && mShown.frame == mHost.currentFrame() && mFeed &&
-           mFeed->isFresh(mShown.frame) && mWorker->isCurrent(mShown);
+    return mShownImage.converged && mShownImage.frame == mHost.currentFrame() && mFeed &&
+           mFeed->isUpToDate(mShownImage.frame) && mWorker->isCurrent(mShownImage);
 }
 
 QVariantList Studio::lightPlaces() const
@@ -60,7 +60,7 @@ void Studio::close()
 {
     mJob.reset();
     mView.reset();
-    mAround.reset();
+    mUnlit.reset();
     mFeed.reset();
     mProject.reset();
     mLayer.reset();
@@ -68,36 +68,36 @@ void Studio::close()
     mWorker->stop();
 }
 
-void Studio::follow(bool active)
+void Studio::onToolActive(bool active)
 {
-    mFeed->setOn(active || mJob->running() != ShotJob::Kind::None);
+    mFeed->setEnabled(active || mJob->runningKind() != ShotJob::Kind::None);
     if (!active)
         return;
-    // Not before: an artist who never lights pays nothing for the lamp.
+    // Not earlier, so that an artist who never lights does not pay for a worker.
     mWorker->start();
-    send();
+    sendScene();
 }
 
-void Studio::send()
+void Studio::sendScene()
 {
     mWorker->setScene(mDocument.scene());
-    mSent = mWorker->revision();
+    mSentRevision = mWorker->revision();
 }
 
-void Studio::takePalette(int frame, const QVector<Swatch>& swatches)
+void Studio::onPaletteArrived(int frame, const QVector<Swatch>& swatches)
 {
     if (frame != mHost.currentFrame())
         return;
     for (const Swatch& swatch : swatches)
-        mColours[swatch.colour] = std::max(mColours.value(swatch.colour), swatch.pixels);
+        mColourPixels[swatch.colour] = std::max(mColourPixels.value(swatch.colour), swatch.pixels);
     QVector<Swatch> all;
-    for (auto colour = mColours.cbegin(); colour != mColours.cend(); ++colour)
+    for (auto colour = mColourPixels.cbegin(); colour != mColourPixels.cend(); ++colour)
         all.append({colour.key(), colour.value()});
     std::sort(all.begin(), all.end(), [](const Swatch& a, const Swatch& b) { return a.pixels > b.pixels; });
     mTool->setPalette(all);
 }
 
-FrameRange Studio::chosenRange() const
+FrameRange Studio::selectedRange() const
 {
     switch (mTool->shotRange())
     {
@@ -113,28 +113,28 @@ FrameRange Studio::chosenRange() const
 
 void Studio::connectJobs()
 {
-    // A job may be asked for before the lamp was ever picked.
-    const auto ready = [this]
+    // A job may be started before the lamp tool was ever picked.
+    const auto startWorker = [this]
     {
         mWorker->start();
-        mFeed->setOn(true);
-        send();
+        mFeed->setEnabled(true);
+        sendScene();
     };
     connect(mTool.get(), &LampTool::generateSurfacesRequested, mJob.get(),
-            [this, ready]
+            [this, startWorker]
             {
-                ready();
+                startWorker();
                 mJob->generateSurfaces();
             });
     connect(mTool.get(), &LampTool::renderAllRequested, mJob.get(),
-            [this, ready]
+            [this, startWorker]
             {
-                ready();
-                mJob->render(chosenRange(), mTool->hidesSources());
+                startWorker();
+                mJob->render(selectedRange(), mTool->hidesSources());
             });
     connect(mTool.get(), &LampTool::cancelRequested, mJob.get(), &ShotJob::cancel);
     connect(mJob.get(), &ShotJob::problem, mTool.get(), &LampTool::showProblem);
-    connect(mJob.get(), &ShotJob::progressed, this,
+    connect(mJob.get(), &ShotJob::progressChanged, this,
             [this](ShotJob::Kind kind, int done, int total, const QString& doing)
             {
                 if (kind == ShotJob::Kind::Render)
@@ -143,15 +143,15 @@ void Studio::connectJobs()
                     mTool->setSurfaceProgress(done, total);
                 mHost.showStatus(QStringLiteral("%1: %2 / %3").arg(doing).arg(done).arg(total));
             });
-    connect(mJob.get(), &ShotJob::ended, this,
-            [this](ShotJob::Kind kind, const QString& said)
+    connect(mJob.get(), &ShotJob::finished, this,
+            [this](ShotJob::Kind kind, const QString& message)
             {
                 if (kind == ShotJob::Kind::Render)
                     mTool->setRenderProgress(0, 0);
                 else
                     mTool->setSurfaceProgress(0, 0);
-                mHost.showStatus(said, 10000);
-                mFeed->setOn(mTool->isActive());
+                mHost.showStatus(message, 10000);
+                mFeed->setEnabled(mTool->isActive());
             });
 }
 

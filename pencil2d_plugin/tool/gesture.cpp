@@ -5,7 +5,7 @@ namespace lampblack
 
 namespace
 {
-constexpr qint64 PauseMs = 1000;
+constexpr qint64 MaxPauseMs = 1000;
 }
 
 int newGesture()
@@ -14,12 +14,12 @@ int newGesture()
     return ++last;
 }
 
-int GestureRun::of(const QString& subject)
+int GestureSequence::gestureFor(const QString& subject)
 {
-    if (subject != mSubject || !mSince.isValid() || mSince.elapsed() > PauseMs)
+    if (subject != mSubject || !mElapsed.isValid() || mElapsed.elapsed() > MaxPauseMs)
         mGesture = newGesture();
     mSubject = subject;
-    mSince.start();
+    mElapsed.start();
     return mGesture;
 }
 

@@ -1,4 +1,4 @@
-// Numbers for gestures: edits of a scene that share one undo as one step.
+// Numbers for gestures: edits of a scene with the same number are undone as one step.
 #pragma once
 
 #include <QElapsedTimer>
@@ -7,19 +7,20 @@
 namespace lampblack
 {
 
-/// A number that no gesture before had; never 0.
+/// A new number; never 0.
 int newGesture();
 
-/// Joins small steps that follow each other (notches of a wheel, nudges, spins) into one gesture.
-class GestureRun
+/// Joins small steps that follow each other (wheel notches, nudges, spins) into one gesture.
+class GestureSequence
 {
 public:
-    /// The last number again if `subject` is the same and less than a second has passed, else a new one.
-    int of(const QString& subject);
+    /// The same number as before if `subject` is the same and less than a second has passed, otherwise a new
+    /// one.
+    int gestureFor(const QString& subject);
     void end() { mSubject.clear(); }
 
 private:
-    QElapsedTimer mSince;
+    QElapsedTimer mElapsed;
     QString mSubject;
     int mGesture = 0;
 };

@@ -7,7 +7,7 @@
 #include "tool/materials/materials_dock.h"
 #include "tool/panel/lamp_panel.h"
 
-// Resources of a static library must be asked for, and from outside any namespace.
+// Resources of a static library must be initialised, and from outside any namespace.
 static void initIcons()
 {
     Q_INIT_RESOURCE(lampblack_icons);
@@ -41,10 +41,10 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
       mRender(new QAction(this))
 {
     initIcons();
-    makeTool();
-    makePanel();
-    makeDock();
-    makeCanvas();
+    addTool();
+    addPanel();
+    addDock();
+    setUpCanvas();
     connect(&worker, &Worker::problem, this, &LampTool::showProblem);
     connect(&document, &SceneDocument::problem, this, &LampTool::showProblem);
     connect(&host, &Host::toolActivated, this, &LampTool::setActive);
@@ -52,13 +52,13 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
 
 LampTool::~LampTool()
 {
-    delete mOverlay; // and with it the filters on the canvas
+    delete mOverlay; // deletes the event filters of the canvas too
     delete mMenu;
     delete mMaterials;
     delete mPanel;
 }
 
-void LampTool::makeTool()
+void LampTool::addTool()
 {
     mTool->setObjectName(QStringLiteral("lampblack.tool"));
     mTool->setCheckable(true);
@@ -83,7 +83,7 @@ void LampTool::makeTool()
     connect(mTool, &QAction::toggled, this, &LampTool::setActive);
 }
 
-void LampTool::makePanel()
+void LampTool::addPanel()
 {
     mPanel = new LampPanel(mHost, mDocument, *mRender);
     connect(mPanel, &LampPanel::viewModeChanged, this, &LampTool::setViewMode);
@@ -103,7 +103,7 @@ void LampTool::makePanel()
     mHost.addDock(dock);
 }
 
-void LampTool::makeDock()
+void LampTool::addDock()
 {
     mMaterials = new MaterialsDock(mDocument);
     connect(mMaterials, &MaterialsDock::pickRequested, this,
@@ -119,7 +119,7 @@ void LampTool::makeDock()
     mHost.addDock(mMaterials);
 }
 
-void LampTool::makeCanvas()
+void LampTool::setUpCanvas()
 {
     if (mHost.canvas() == nullptr)
         return;
@@ -132,18 +132,18 @@ void LampTool::makeCanvas()
     connect(mInput, &CanvasInput::menuRequested, mMenu.data(),
             [this](const QPointF& canvas, const QPoint& global, const Handle& handle)
             { mMenu->openAt(canvas, global, handle, mColours.at(canvas)); });
-    connect(mInput, &CanvasInput::pointed, this, &LampTool::point);
-    connect(mInput, &CanvasInput::left, this,
+    connect(mInput, &CanvasInput::pointerMoved, this, &LampTool::highlightColourAt);
+    connect(mInput, &CanvasInput::pointerLeft, this,
             [this]
             {
                 if (mMaterials)
                     mMaterials->setHighlighted(QString());
             });
-    connect(mInput, &CanvasInput::picked, this,
+    connect(mInput, &CanvasInput::colourPicked, this,
             [this](const QPointF& canvas)
             {
                 if (mMaterials)
-                    mMaterials->reveal(mColours.at(canvas));
+                    mMaterials->revealColour(mColours.at(canvas));
             });
     connect(mInput, &CanvasInput::pickingChanged, this,
             [this](bool picking)
@@ -155,7 +155,7 @@ void LampTool::makeCanvas()
             [this](const QString& colour)
             {
                 if (mMaterials)
-                    mMaterials->reveal(colour);
+                    mMaterials->revealColour(colour);
             });
 }
 
@@ -168,7 +168,7 @@ void LampTool::setActive(bool active)
     {
         mOverlay->setVisible(active);
         mOverlay->raise();
-        mOverlay->follow();
+        mOverlay->updateHandles();
         mInput->setListening(active);
         mKeys->setListening(active);
     }
@@ -209,7 +209,7 @@ void LampTool::setFrame(const FrameExport& frame)
         mCameras.insert(frame.frame, frame.canvasToImage);
 }
 
-void LampTool::setPicture(const LookImage& picture)
+void LampTool::setPicture(const PreviewImage& picture)
 {
     if (!mOverlay || viewMode() == ViewMode::Flat || picture.show != showOf(viewMode()))
         return;
@@ -222,10 +222,10 @@ void LampTool::clearPicture()
         mOverlay->clearPicture();
 }
 
-void LampTool::setSurroundings(const FrameExport& below, const FrameExport& above)
+void LampTool::setUnlitLayers(const FrameExport& below, const FrameExport& above)
 {
     if (mOverlay)
-        mOverlay->setSurroundings(below, above);
+        mOverlay->setUnlitLayers(below, above);
 }
 
 void LampTool::setPalette(const QVector<Swatch>& swatches)
@@ -254,7 +254,7 @@ void LampTool::showProblem(const UserError& error)
     mHost.showStatus(error.what);
 }
 
-void LampTool::point(const QPointF& canvas)
+void LampTool::highlightColourAt(const QPointF& canvas)
 {
     if (mMaterials)
         mMaterials->setHighlighted(mColours.at(canvas));

@@ -1,4 +1,4 @@
-// The lamp: everything that the artist sees and touches of Lampblack.
+// The lamp tool: all of Lampblack's user interface.
 #pragma once
 
 #include "host/host.h"
@@ -21,9 +21,9 @@ class LampMenu;
 class LampPanel;
 class MaterialsDock;
 
-/// Puts a tool, its panel, a dock and a menu entry into the host, paints over its canvas while the tool
-/// is in use, and edits the document. It asks nobody for pictures: whoever owns it feeds it. The
-/// worker's state and the problems of worker and document it follows by itself.
+/// Adds a tool, its panel, a dock and a menu entry to the host, paints over the canvas while the tool is in
+/// use, and edits the document. It does not request pictures: its owner calls setPicture(). It shows the
+/// worker's state, and the problems of worker and document, by itself.
 class LampTool : public QObject
 {
     Q_OBJECT
@@ -39,24 +39,24 @@ public:
     QAction* toolAction() { return mTool; }
     QAction* renderAction() { return mRender; } ///< "Render All Frames"
     ShotRange shotRange() const;
-    bool hidesSources() const; ///< once the layer of results is there
+    bool hidesSources() const; ///< whether the lit layers are hidden once the result layer is there
 
 public Q_SLOTS:
-    /// The drawing in sight: where the colour under the pointer comes from, and its camera, which
-    /// registers pictures of that frame.
+    /// The current drawing, for the colour under the pointer. Its camera is remembered for pictures of its
+    /// frame.
     void setFrame(const lampblack::FrameExport& frame);
 
-    /// A picture to show instead of the drawing. Pictures of another look than viewMode() are passed over.
-    void setPicture(const lampblack::LookImage& picture);
+    /// Show a picture instead of the drawing. It is ignored if viewMode() is another one.
+    void setPicture(const lampblack::PreviewImage& picture);
     void clearPicture();
 
-    /// What is not lit, under and over what is; null images for nothing.
-    void setSurroundings(const lampblack::FrameExport& below, const lampblack::FrameExport& above);
+    /// The unlit layers under and over the lit ones; null images for none.
+    void setUnlitLayers(const lampblack::FrameExport& below, const lampblack::FrameExport& above);
 
-    /// The flat colours of the drawing in sight, most used first.
+    /// The flat colours of the current drawing, most used first.
     void setPalette(const QVector<lampblack::Swatch>& swatches);
 
-    /// Frames done of total; 0 of 0 once the work has ended.
+    /// Frames done of total; 0 of 0 when the work has ended.
     void setSurfaceProgress(int done, int total);
     void setRenderProgress(int done, int total);
 
@@ -71,21 +71,21 @@ Q_SIGNALS:
 
 private:
     void setActive(bool active);
-    void makeTool();
-    void makePanel();
-    void makeDock();
-    void makeCanvas();
-    void point(const QPointF& canvas);
+    void addTool();
+    void addPanel();
+    void addDock();
+    void setUpCanvas();
+    void highlightColourAt(const QPointF& canvas);
 
     Host& mHost;
     Worker& mWorker;
     SceneDocument& mDocument;
     bool mActive = false;
     FrameColours mColours;
-    QHash<int, QTransform> mCameras; ///< canvas to image, of frames whose camera has moved
+    QHash<int, QTransform> mCameras; ///< canvas to image, by frame, if not identity
     QAction* mTool;
     QAction* mRender;
-    // These belong to the host's window and may go with it.
+    // These belong to the host's window and may be deleted with it.
     QPointer<LampPanel> mPanel;
     QPointer<MaterialsDock> mMaterials;
     QPointer<CanvasOverlay> mOverlay;

@@ -7,7 +7,7 @@ namespace lampblack
 enum class ShotRange
 {
     All,
-    Loop, ///< from the start to the end of the loop that is played
+    Loop, ///< the loop range of the timeline
     Current
 };
 

@@ -10,7 +10,7 @@ namespace lampblack
 
 namespace
 {
-constexpr int MostFrames = 100000;
+constexpr int MaxFrames = 100000;
 } // namespace
 
 std::optional<QVector<int>> parseFrames(const QString& text)
@@ -25,7 +25,7 @@ std::optional<QVector<int>> parseFrames(const QString& text)
         const int last = match.captured(2).isEmpty() ? first : match.captured(2).toInt();
         const int step = match.captured(3).isEmpty() ? 1 : match.captured(3).toInt();
         if (!match.hasMatch() || last < first || step < 1 ||
-            frames.size() + (last - first) / step >= MostFrames)
+            frames.size() + (last - first) / step >= MaxFrames)
         {
             return std::nullopt;
         }

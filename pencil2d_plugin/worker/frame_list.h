@@ -9,10 +9,10 @@
 namespace lampblack
 {
 
-/// The frames of a list, rising, each once; nothing if it is malformed or names over 100,000.
+/// The frames of a list in rising order, each once. No value if it is malformed or has over 100,000 frames.
 std::optional<QVector<int>> parseFrames(const QString& text);
 
-/// The shortest list of ranges and steps for rising frames, as a greedy reader finds it.
+/// A short list of ranges and steps for frames in rising order, found greedily.
 QString formatFrames(const QVector<int>& frames);
 
 } // namespace lampblack

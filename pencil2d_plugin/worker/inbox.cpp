@@ -25,15 +25,15 @@ bool replaces(const protocol::Message& newer, const protocol::Message& older)
 
 void Inbox::push(const Incoming& incoming)
 {
-    const auto passedOver = [&incoming](const Incoming& older)
+    const auto isReplaced = [&incoming](const Incoming& older)
     {
         return replaces(incoming.message, older.message);
     };
-    mWaiting.erase(std::remove_if(mWaiting.begin(), mWaiting.end(), passedOver), mWaiting.end());
+    mWaiting.erase(std::remove_if(mWaiting.begin(), mWaiting.end(), isReplaced), mWaiting.end());
     mWaiting.append(incoming);
 }
 
-QVector<Incoming> Inbox::take()
+QVector<Incoming> Inbox::takeAll()
 {
     QVector<Incoming> taken;
     taken.swap(mWaiting);

@@ -1,4 +1,4 @@
-// What came from the worker and was not looked at yet.
+// Messages from the worker that wait to be handled.
 #pragma once
 
 #include "protocol/messages.h"
@@ -9,22 +9,22 @@
 namespace lampblack
 {
 
-/// A message of the worker's; `picture` came with an image.
+/// A message of the worker. An image message has a picture.
 struct Incoming
 {
     protocol::Message message;
     QImage picture; ///< Format_RGBA8888_Premultiplied or null
 };
 
-/// Messages in their order; of images, of ticks and of each job's progress only the newest, so that a client
-/// that is busy finds little to do.
+/// Messages in order of arrival. Only the newest image, the newest status and the newest progress of each job
+/// are kept, so that little waits for a busy client.
 class Inbox
 {
 public:
     void push(const Incoming& incoming);
-    QVector<Incoming> take();
+    QVector<Incoming> takeAll();
     bool isEmpty() const { return mWaiting.isEmpty(); }
-    /// So much waits that the socket should be left alone for now.
+    /// So much waits that nothing more should be read from the socket.
     bool isFull() const { return mWaiting.size() >= 1000; }
 
 private:

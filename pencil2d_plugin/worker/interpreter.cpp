@@ -14,7 +14,7 @@ namespace lampblack
 
 namespace
 {
-constexpr qint64 MostBytes = 4096;
+constexpr qint64 MaxBytes = 4096;
 } // namespace
 
 QString pluginFolder()
@@ -39,7 +39,7 @@ Interpreter findInterpreter(const QString& folder)
     if (note.open(QIODevice::ReadOnly))
     {
         const QString path =
-            QJsonDocument::fromJson(note.read(MostBytes)).object().value(QLatin1String("python")).toString();
+            QJsonDocument::fromJson(note.read(MaxBytes)).object().value(QLatin1String("python")).toString();
         return {QDir::isAbsolutePath(path) ? path : QString(), note.fileName()};
     }
     const QString path = QDir(folder).filePath(QStringLiteral("../../../.venv/bin/python"));

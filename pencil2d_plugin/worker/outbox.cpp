@@ -6,14 +6,14 @@ namespace lampblack
 namespace
 {
 
-constexpr int MostLasting = 1000;
+constexpr int MaxUnreplaceable = 1000;
 
-// Frames are keyed by their number.
+// The key of a frame is its number.
 constexpr qint64 SceneKey = -1;
-constexpr qint64 LookKey = -2;
+constexpr qint64 PreviewKey = -2;
 constexpr qint64 NoKey = -3;
 
-qint64 keyOf(const protocol::Message& message)
+qint64 replacementKey(const protocol::Message& message)
 {
     if (const auto* put = std::get_if<protocol::PutFrame>(&message))
     {
@@ -29,7 +29,7 @@ qint64 keyOf(const protocol::Message& message)
     }
     const bool look =
         std::holds_alternative<protocol::Preview>(message) || std::holds_alternative<protocol::View>(message);
-    return look ? LookKey : NoKey;
+    return look ? PreviewKey : NoKey;
 }
 
 bool isBarrier(const protocol::Message& message)
@@ -38,7 +38,7 @@ bool isBarrier(const protocol::Message& message)
            std::holds_alternative<protocol::Render>(message);
 }
 
-/// `newer` with the pixels that `older` carried, if both show the same drawing: the worker asked for them.
+/// `newer` with the pixels of `older`, if both show the same drawing: the worker has asked for them.
 Outgoing merged(const Outgoing& older, Outgoing newer)
 {
     const auto* was = std::get_if<protocol::PutFrame>(&older.message);
@@ -55,25 +55,25 @@ Outgoing merged(const Outgoing& older, Outgoing newer)
 
 bool Outbox::push(const Outgoing& outgoing)
 {
-    const qint64 key = keyOf(outgoing.message);
+    const qint64 key = replacementKey(outgoing.message);
     const auto found = mReplaceable.constFind(key);
     if (found != mReplaceable.constEnd())
     {
         const Place place = found.value();
-        if (key != LookKey)
+        if (key != PreviewKey)
         {
             place->outgoing = merged(place->outgoing, outgoing);
             return true;
         }
-        mWaiting.erase(place); // its request must come after all that were made since
+        mWaiting.erase(place); // request numbers must rise, so the new one goes to the end
     }
     if (key == NoKey)
     {
-        if (mLasting >= MostLasting)
+        if (mUnreplaceable >= MaxUnreplaceable)
         {
             return false;
         }
-        ++mLasting;
+        ++mUnreplaceable;
         if (isBarrier(outgoing.message))
         {
             mReplaceable.clear();
@@ -93,7 +93,7 @@ Outgoing Outbox::takeFirst()
     const auto found = mReplaceable.constFind(first->key);
     if (first->key == NoKey)
     {
-        --mLasting;
+        --mUnreplaceable;
     }
     else if (found != mReplaceable.constEnd() && found.value() == first)
     {

@@ -1,4 +1,4 @@
-// What waits to be sent to the worker.
+// Messages that wait to be sent to the worker.
 #pragma once
 
 #include "protocol/messages.h"
@@ -11,34 +11,34 @@
 namespace lampblack
 {
 
-/// A message of ours; `pixels` go with a put_frame.
+/// A message to the worker; `pixels` belong to a put_frame.
 struct Outgoing
 {
     protocol::Message message;
     QImage pixels; ///< Format_RGBA8888 or null
 };
 
-/// Messages in their order, but for what a newer one replaces (SPEC 6): a scene, a look, what a frame shows.
-/// Nothing is replaced across a hello or render.
+/// Messages in order, but a newer scene, preview request or drawing of a frame replaces an older one (SPEC
+/// 6). Nothing that waits before a hello or render is replaced by something after it.
 class Outbox
 {
 public:
-    /// False if a thousand messages wait that nothing replaces: the worker reads nothing any more.
+    /// False if too many messages wait that cannot be replaced: the worker has stopped reading.
     bool push(const Outgoing& outgoing);
     bool isEmpty() const { return mWaiting.empty(); }
-    Outgoing takeFirst(); ///< only if there is one
+    Outgoing takeFirst(); ///< must not be empty
 
 private:
     struct Entry
     {
         Outgoing outgoing;
-        qint64 key; ///< of what replaces it, see keyOf() in outbox.cpp
+        qint64 key; ///< a newer message with this key replaces it, see replacementKey()
     };
     using Place = std::list<Entry>::iterator;
 
     std::list<Entry> mWaiting;
     QHash<qint64, Place> mReplaceable;
-    int mLasting = 0;
+    int mUnreplaceable = 0;
 };
 
 } // namespace lampblack

@@ -9,7 +9,7 @@ namespace lampblack
 namespace
 {
 
-constexpr int MostWorkers = 3;
+constexpr int MaxWorkers = 3;
 
 int clamped(quint64 count)
 {
@@ -46,7 +46,7 @@ void RenderJobs::forgetRequests()
         RenderJob& job = mJobs[number];
         job.request = 0;
         job.doneBefore = job.done;
-        if (job.asked >= MostWorkers)
+        if (job.asked >= MaxWorkers)
         {
             end(number, protocol::Outcome::Failed);
         }
@@ -71,43 +71,43 @@ void RenderJobs::endAll(protocol::Outcome outcome)
     }
 }
 
-bool RenderJobs::take(const protocol::Progress& told)
+bool RenderJobs::handle(const protocol::Progress& message)
 {
-    const auto job = find(told.request);
+    const auto job = find(message.request);
     if (job == mJobs.end())
     {
         return false;
     }
-    job->done = job->doneBefore + clamped(told.framesDone);
-    job->total = job->doneBefore + clamped(told.framesTotal);
-    Q_EMIT progress(job.key(), told.frame, told.share, job->done, job->total);
+    job->done = job->doneBefore + clamped(message.framesDone);
+    job->total = job->doneBefore + clamped(message.framesTotal);
+    Q_EMIT progress(job.key(), message.frame, message.share, job->done, job->total);
     return true;
 }
 
-bool RenderJobs::take(const protocol::FrameDone& told)
+bool RenderJobs::handle(const protocol::FrameDone& message)
 {
-    const auto job = find(told.request);
+    const auto job = find(message.request);
     if (job == mJobs.end())
     {
         return false;
     }
-    job->frames.removeOne(told.frame);
+    job->frames.removeOne(message.frame);
     ++job->done;
-    Q_EMIT frameDone(job.key(), told.frame, told.path);
+    Q_EMIT frameDone(job.key(), message.frame, message.path);
     return true;
 }
 
-bool RenderJobs::take(const protocol::Done& told)
+bool RenderJobs::handle(const protocol::Done& message)
 {
-    const auto job = find(told.request);
+    const auto job = find(message.request);
     if (job == mJobs.end())
     {
         return false;
     }
-    job->done = job->doneBefore + clamped(told.framesDone);
-    job->total = job->doneBefore + clamped(told.framesTotal);
-    job->failed = clamped(told.framesFailed);
-    end(job.key(), told.outcome);
+    job->done = job->doneBefore + clamped(message.framesDone);
+    job->total = job->doneBefore + clamped(message.framesTotal);
+    job->failed = clamped(message.framesFailed);
+    end(job.key(), message.outcome);
     return true;
 }
 

@@ -1,4 +1,4 @@
-// Render jobs as the user knows them, whichever worker works on them.
+// Render jobs as the user sees them. A job may go through several worker processes.
 #pragma once
 
 #include "protocol/messages.h"
@@ -15,21 +15,21 @@ namespace lampblack
 
 struct RenderJob
 {
-    QVector<int> frames; ///< still to be made
+    QVector<int> frames; ///< frames that are not rendered yet
     QString output;
     Quality quality = Quality::Final;
     bool keepFinished = false;
-    std::optional<Scene> scene; ///< as it was when the job was asked for
-    quint64 lastPut = 0;        ///< drawings put up to here belong to it, see FrameBook
-    quint64 request = 0;        ///< 0 while it is not asked of a worker
-    int asked = 0;              ///< how often it was
+    std::optional<Scene> scene; ///< the scene at the start of the job
+    quint64 lastPut = 0;        ///< the job needs the drawings up to this call of FrameStore::put()
+    quint64 request = 0;        ///< 0 while no worker has the job
+    int asked = 0;              ///< how many workers had the job
     int done = 0;
-    int doneBefore = 0; ///< by workers that died
+    int doneBefore = 0; ///< frames done by workers that died
     int total = 0;
     int failed = 0;
 };
 
-/// The jobs that have not ended. A worker's death leaves them here, with the frames that are left to do.
+/// The jobs that have not ended. After a worker's death they go on with the frames that are left.
 class RenderJobs : public QObject
 {
     Q_OBJECT
@@ -41,15 +41,15 @@ public:
     quint64 add(const RenderJob& job);
     QMap<quint64, RenderJob>& jobs() { return mJobs; }
 
-    /// The worker is gone, and with it the requests; a job that has seen three workers go ends as failed.
+    /// The worker has ended, and with it the requests. A job that had three workers ends as failed.
     void forgetRequests();
     void end(quint64 job, protocol::Outcome outcome);
     void endAll(protocol::Outcome outcome);
 
-    // False if no job has that request.
-    bool take(const protocol::Progress& progress);
-    bool take(const protocol::FrameDone& frame);
-    bool take(const protocol::Done& done);
+    // These return false if no job has that request.
+    bool handle(const protocol::Progress& progress);
+    bool handle(const protocol::FrameDone& frame);
+    bool handle(const protocol::Done& done);
     bool endRequest(quint64 request, protocol::Outcome outcome);
 
 Q_SIGNALS:

@@ -1,5 +1,5 @@
-// The worker as the rest of the plugin sees it: one object on Qt's main thread, whatever becomes of
-// the process and the socket behind it.
+// The interface of the worker for the rest of the plugin. It lives in Qt's main thread and outlives the
+// process and the socket behind it.
 #pragma once
 
 #include "scene/scene.h"
@@ -21,15 +21,15 @@ enum class Show
     Relief
 };
 
-/// A picture of a look: it replaces the drawing, ink included, in the whole of its crop.
-struct LookImage
+/// A rendered picture. In its crop it replaces the whole drawing, ink included.
+struct PreviewImage
 {
     int frame = 0;
     Show show = Show::Lit;
-    QRectF crop;    ///< view pixels: x right, y down, from the frame's top left corner
-    QImage picture; ///< Format_RGBA8888_Premultiplied, covers the crop whatever its size
-    QByteArray digest;
-    quint64 revision = 0;
+    QRectF crop;          ///< view pixels: x right, y down, from the frame's top left corner
+    QImage picture;       ///< Format_RGBA8888_Premultiplied; any size, stretched over the crop
+    QByteArray digest;    ///< digest of the drawing
+    quint64 revision = 0; ///< revision of the scene
     int pass = 0;
     bool converged = false;
 };
@@ -47,7 +47,7 @@ class Worker : public QObject
 public:
     enum class State
     {
-        Absent, ///< not installed, or given up: problem() has told why and what to do
+        Absent, ///< not installed, or given up: problem() was emitted
         Starting,
         Ready,
         Busy, ///< tracing or rendering
@@ -59,44 +59,48 @@ public:
 
     virtual State state() const = 0;
 
-    /// Start the process and connect, if not done yet. stop() ends it; both return at once.
+    /// Start the process and connect, if it does not run yet. stop() ends it. Both return at once.
     virtual void start() = 0;
     virtual void stop() = 0;
 
-    /// Frame `frame` shows `pixels` (Format_RGBA8888). Returns at once: the digest is taken in another
-    /// thread, then the drawing is kept (shared by digest, bounded; see frameWanted()), sent when asked
-    /// for, and announced again by itself after a restart. `camera` takes canvas to view pixels.
+    /// Frame `frame` shows `pixels` (Format_RGBA8888). `camera` maps canvas to view pixels. Returns at once:
+    /// the digest is calculated in another thread. The drawing is announced to the worker, again after each
+    /// restart, and its pixels are sent when the worker asks for them. They are kept while there is memory,
+    /// see frameNeeded().
     virtual void putFrame(int frame, const QImage& pixels, const QTransform& camera = {}) = 0;
     virtual void dropFrame(int frame) = 0;
     virtual void dropAllFrames() = 0;
 
-    /// Latest wins. Safe to call at any rate: what the worker cannot follow is passed over.
+    /// May be called at any rate: scenes that the worker is too slow for are skipped, but never the last.
     virtual void setScene(const Scene& scene) = 0;
 
-    /// Of the scene last sent; images tell theirs.
+    /// Revision of the scene last sent, to compare with PreviewImage::revision.
     virtual quint64 revision() const = 0;
 
-    /// Whether a picture kept from before still shows its frame's drawing under the scene as it is.
-    virtual bool isCurrent(const LookImage& image) const = 0;
+    /// Whether a picture still shows the current drawing of its frame under the current scene.
+    virtual bool isCurrent(const PreviewImage& image) const = 0;
 
-    /// What is in sight: `crop` in view pixels, wanted at `size` device pixels. Ended by stopLooking().
-    virtual void look(int frame, Show show, const QRectF& crop, const QSize& size) = 0;
-    virtual void stopLooking() = 0;
+    /// Ask for pictures of `crop` (view pixels) of a frame, `size` device pixels large. imageArrived() is
+    /// emitted for each, also after every change of scene or drawing, until cancelPreview() or another
+    /// request.
+    virtual void requestPreview(int frame, Show show, const QRectF& crop, const QSize& size) = 0;
+    virtual void cancelPreview() = 0;
 
-    virtual void askPalette(int frame) = 0;
+    virtual void requestPalette(int frame) = 0;
 
-    /// Light frames ("1-20x2,25") into files such as /shots/a.%04d.png. Returns the job's number.
+    /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png. Returns the job's number.
     virtual quint64 render(const QString& frames, const QString& output, Quality quality,
                            bool keepFinished = false) = 0;
     virtual void cancelRender(quint64 job) = 0;
 
 Q_SIGNALS:
     void stateChanged(lampblack::Worker::State state);
-    void imageArrived(const lampblack::LookImage& image);
-    /// The drawing of `frame` is needed and was let go to save memory: export it and put it again.
-    void frameWanted(int frame);
+    void imageArrived(const lampblack::PreviewImage& image);
+    /// The worker needs the drawing of `frame`, whose pixels are no longer in memory: call putFrame() again.
+    void frameNeeded(int frame);
     void paletteArrived(int frame, const QVector<lampblack::Swatch>& swatches);
-    void framesLit(int lit, int held); ///< of the frames held, those lit under this scene
+    void framesLit(int lit,
+                   int held); ///< number of frames lit under this scene, and of frames the worker has
     void renderProgress(quint64 job, int frame, double share, int done, int total);
     void renderFrameDone(quint64 job, int frame, const QString& path);
     void renderDone(quint64 job, const QString& outcome, int done, int total, int failed);
@@ -105,5 +109,5 @@ Q_SIGNALS:
 
 } // namespace lampblack
 
-Q_DECLARE_METATYPE(lampblack::LookImage)
+Q_DECLARE_METATYPE(lampblack::PreviewImage)
 Q_DECLARE_METATYPE(QVector<lampblack::Swatch>)

@@ -16,15 +16,15 @@ namespace
 
 Q_LOGGING_CATEGORY(log, "lampblack.worker")
 
-constexpr int HighWater = 4; // what waits longer is better replaced in the outbox
+constexpr int HighWater = 4; // more waits in the outbox, where it can be replaced
 constexpr int HeartbeatMs = 1000;
 constexpr int HeartbeatTimeoutMs = 5000;
 constexpr qint64 GreetingMs = 10000;
-constexpr int MostRefusalsLogged = 10;
-constexpr int MostAtOnce = 64;           // taken in before anything is sent again
-constexpr size_t MostFrames = 1 + 4 + 1; // one too many tells the decoder as well as a thousand
+constexpr int MaxRefusalsLogged = 10;
+constexpr int MaxAtOnce = 64;           // taken in before anything is sent again
+constexpr size_t MaxFrames = 1 + 4 + 1; // one too many tells the decoder as well as a thousand
 
-qint64 now()
+qint64 nowMs()
 {
     return QDeadlineTimer::current(Qt::PreciseTimer).deadline();
 }
@@ -34,7 +34,7 @@ zmq::message_t messageOf(const QByteArray& bytes)
     return zmq::message_t(bytes.constData(), static_cast<size_t>(bytes.size()));
 }
 
-/// The image's own bits; ZeroMQ holds a reference until they are sent.
+/// Does not copy the pixels: ZeroMQ holds a reference to the image until they are sent.
 zmq::message_t messageOf(const QImage& image)
 {
     auto* kept = new QImage(image);
@@ -46,7 +46,7 @@ zmq::message_t messageOf(const QImage& image)
                           release, kept);
 }
 
-/// The host's signals (SIGCHLD, say) must not interrupt this thread's calls.
+/// Signals of the host (such as SIGCHLD) must not interrupt system calls of this thread.
 void maskSignals()
 {
     sigset_t signalsToBlock;
@@ -58,7 +58,7 @@ void maskSignals()
     pthread_sigmask(SIG_BLOCK, &signalsToBlock, nullptr);
 }
 
-protocol::Error faultOf(protocol::ErrorCode code, const QString& details)
+protocol::Error errorOf(protocol::ErrorCode code, const QString& details)
 {
     protocol::Error error;
     error.code = protocol::name(code);
@@ -86,7 +86,7 @@ WorkerLink::~WorkerLink()
     wait();
 }
 
-void WorkerLink::retire()
+void WorkerLink::closeLater()
 {
     disconnect(this, nullptr, nullptr, nullptr);
     connect(this, &QThread::finished, this, &QObject::deleteLater);
@@ -114,14 +114,14 @@ bool WorkerLink::send(const Outgoing& outgoing)
     return true;
 }
 
-QVector<Incoming> WorkerLink::take()
+QVector<Incoming> WorkerLink::takeIncoming()
 {
     QVector<Incoming> taken;
     bool wasFull = false;
     {
         const QMutexLocker lock(&mMutex);
         wasFull = mInbox.isFull();
-        taken = mInbox.take();
+        taken = mInbox.takeAll();
     }
     if (wasFull)
     {
@@ -134,12 +134,12 @@ void WorkerLink::wakeUp()
 {
     try
     {
-        // Where this would block, the thread has been woken often enough.
+        // If this would block, enough wake-ups are pending.
         mWake.send(zmq::message_t(), zmq::send_flags::dontwait);
     }
     catch (const zmq::error_t&)
     {
-        return; // the thread has ended, or is about to
+        return; // the thread has ended or is about to end
     }
 }
 
@@ -170,19 +170,19 @@ void WorkerLink::run()
         socket.connect(mEndpoint.constData());
         zmq::socket_t wake(mContext, zmq::socket_type::pair);
         wake.connect("inproc://wake");
-        converse(socket, wake);
+        exchangeMessages(socket, wake);
     }
     catch (const std::exception& error)
     {
         qCWarning(log) << "The connection to the worker broke:" << error.what();
     }
-    Q_EMIT silent();
+    Q_EMIT connectionLost();
 }
 
-void WorkerLink::converse(zmq::socket_t& socket, zmq::socket_t& wake)
+void WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake)
 {
-    mPatienceMs = GreetingMs;
-    mHeardMs = now();
+    mTimeoutMs = GreetingMs;
+    mLastTickMs = nowMs();
     for (;;)
     {
         {
@@ -195,22 +195,22 @@ void WorkerLink::converse(zmq::socket_t& socket, zmq::socket_t& wake)
         const bool reading = !inboxIsFull();
         if (!reading)
         {
-            mHeardMs = now(); // the silence is ours
+            mLastTickMs = nowMs(); // the silence is ours
         }
         const int events = (reading ? ZMQ_POLLIN : 0) | (outboxIsEmpty() ? 0 : ZMQ_POLLOUT);
         zmq::pollitem_t items[] = {{wake.handle(), 0, ZMQ_POLLIN, 0},
                                    {socket.handle(), 0, static_cast<short>(events), 0}};
-        const qint64 left = mHeardMs + mPatienceMs - now();
+        const qint64 left = mLastTickMs + mTimeoutMs - nowMs();
         zmq::poll(items, 2, std::chrono::milliseconds(qMax(qint64(0), left) + 1));
         zmq::message_t nudge;
         while (wake.recv(nudge, zmq::recv_flags::dontwait))
         {
         }
-        flush(socket);
+        sendPending(socket);
         if (reading)
         {
-            const bool drained = drain(socket);
-            if (drained && now() - mHeardMs > mPatienceMs)
+            const bool drained = receivePending(socket);
+            if (drained && nowMs() - mLastTickMs > mTimeoutMs)
             {
                 return;
             }
@@ -218,7 +218,7 @@ void WorkerLink::converse(zmq::socket_t& socket, zmq::socket_t& wake)
     }
 }
 
-void WorkerLink::flush(zmq::socket_t& socket)
+void WorkerLink::sendPending(zmq::socket_t& socket)
 {
     while ((socket.get(zmq::sockopt::events) & ZMQ_POLLOUT) != 0)
     {
@@ -234,10 +234,10 @@ void WorkerLink::flush(zmq::socket_t& socket)
         const std::optional<QByteArray> header = protocol::encode(outgoing.message);
         if (!header)
         {
-            if (!std::exchange(mToldTooLong, true))
+            if (!std::exchange(mReportedTooLong, true))
             {
                 const QString type = protocol::typeOf(outgoing.message);
-                deliver({faultOf(protocol::ErrorCode::HeaderTooLarge, type), {}});
+                queueIncoming({errorOf(protocol::ErrorCode::HeaderTooLarge, type), {}});
             }
             continue;
         }
@@ -250,9 +250,9 @@ void WorkerLink::flush(zmq::socket_t& socket)
     }
 }
 
-bool WorkerLink::drain(zmq::socket_t& socket)
+bool WorkerLink::receivePending(zmq::socket_t& socket)
 {
-    for (int count = 0; count < MostAtOnce && !inboxIsFull(); ++count)
+    for (int count = 0; count < MaxAtOnce && !inboxIsFull(); ++count)
     {
         std::vector<zmq::message_t> frames(1);
         if (!socket.recv(frames.back(), zmq::recv_flags::dontwait))
@@ -261,19 +261,19 @@ bool WorkerLink::drain(zmq::socket_t& socket)
         }
         while (frames.back().more())
         {
-            if (frames.size() < MostFrames)
+            if (frames.size() < MaxFrames)
             {
                 frames.emplace_back();
             }
             // A message arrives whole: its other frames are there.
             (void)socket.recv(frames.back(), zmq::recv_flags::none);
         }
-        receive(frames);
+        handleMessage(frames);
     }
     return false;
 }
 
-void WorkerLink::receive(const std::vector<zmq::message_t>& frames)
+void WorkerLink::handleMessage(const std::vector<zmq::message_t>& frames)
 {
     QVector<protocol::Bytes> bytes;
     for (const zmq::message_t& frame : frames)
@@ -283,32 +283,32 @@ void WorkerLink::receive(const std::vector<zmq::message_t>& frames)
     const protocol::Decoded decoded = protocol::decode(bytes, protocol::Sender::Worker);
     if (const auto* refusal = std::get_if<protocol::Refusal>(&decoded))
     {
-        if (++mRefused <= MostRefusalsLogged)
+        if (++mRefusals <= MaxRefusalsLogged)
         {
             qCWarning(log) << "A message of the worker was dropped:" << protocol::name(refusal->code)
                            << refusal->details;
         }
         if (refusal->code == protocol::ErrorCode::VersionMismatch)
         {
-            deliver({faultOf(refusal->code, refusal->details), {}});
+            queueIncoming({errorOf(refusal->code, refusal->details), {}});
         }
         return;
     }
     const auto& received = std::get<protocol::Received>(decoded);
     if (const auto* welcome = std::get_if<protocol::Welcome>(&received.message))
     {
-        mPatienceMs = 3 * welcome->statusMs + welcome->statusMs / 2;
-        mHeardMs = now();
+        mTimeoutMs = 3 * welcome->statusMs + welcome->statusMs / 2;
+        mLastTickMs = nowMs();
     }
     if (std::holds_alternative<protocol::Status>(received.message))
     {
-        mHeardMs = now();
+        mLastTickMs = nowMs();
     }
-    deliver({received.message,
-             received.planes.isEmpty() ? QImage() : protocol::toImage(received.planes.first())});
+    queueIncoming({received.message,
+                   received.planes.isEmpty() ? QImage() : protocol::toImage(received.planes.first())});
 }
 
-void WorkerLink::deliver(const Incoming& incoming)
+void WorkerLink::queueIncoming(const Incoming& incoming)
 {
     bool first = false;
     {
@@ -318,7 +318,7 @@ void WorkerLink::deliver(const Incoming& incoming)
     }
     if (first)
     {
-        Q_EMIT arrived();
+        Q_EMIT messagesArrived();
     }
 }
 

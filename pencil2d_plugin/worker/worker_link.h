@@ -1,4 +1,4 @@
-// The socket to the worker, in a thread of its own.
+// The socket to the worker, in its own thread.
 #pragma once
 
 #include "worker/inbox.h"
@@ -14,53 +14,53 @@
 namespace lampblack
 {
 
-/// One connection, from its making to its end; for another worker make another. Encoding, decoding and
-/// copying of pixels happen in its thread; the functions are for the thread that made it, and never wait.
+/// One connection to one worker process. Its thread encodes, decodes and copies pixels. The public functions
+/// are called from the thread that created it and do not block.
 class WorkerLink : public QThread
 {
     Q_OBJECT
 
 public:
     explicit WorkerLink(const QString& endpoint, QObject* parent = nullptr);
-    /// Waits for the thread, a few milliseconds; retire() does not.
+    /// Waits for the thread, a few milliseconds. closeLater() does not.
     ~WorkerLink() override;
 
-    /// False if so much waits that the worker must be reading nothing.
+    /// False if so much waits that the worker must have stopped reading.
     bool send(const Outgoing& outgoing);
-    QVector<Incoming> take();
+    QVector<Incoming> takeIncoming();
 
-    /// End the thread, say nothing more, and go when it has ended.
-    void retire();
+    /// End the thread, emit nothing more, and delete this object when the thread has ended.
+    void closeLater();
 
 Q_SIGNALS:
-    void arrived(); ///< there is something to take(); said once until it is taken
-    void silent();  ///< nothing can be sent, or ticks were missed (SPEC 5); the thread has ended
+    void messagesArrived(); ///< call takeIncoming(); emitted once until it is called
+    void connectionLost();  ///< nothing can be sent, or status messages are missing (SPEC 5)
 
 private:
     void run() override;
-    void converse(zmq::socket_t& socket, zmq::socket_t& wake);
-    bool drain(zmq::socket_t& socket); ///< false if more may be waiting
-    void receive(const std::vector<zmq::message_t>& frames);
-    void deliver(const Incoming& incoming);
-    void flush(zmq::socket_t& socket);
+    void exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake);
+    bool receivePending(zmq::socket_t& socket); ///< false if more may be waiting
+    void handleMessage(const std::vector<zmq::message_t>& frames);
+    void queueIncoming(const Incoming& incoming);
+    void sendPending(zmq::socket_t& socket);
     void wakeUp();
     bool inboxIsFull();
     bool outboxIsEmpty();
 
     const QByteArray mEndpoint;
     zmq::context_t mContext{1};
-    zmq::socket_t mWake; ///< the maker's end of what wakes the thread
+    zmq::socket_t mWake; ///< wakes the thread
 
-    QMutex mMutex; ///< of the next three
+    QMutex mMutex; ///< guards the next three
     Outbox mOutbox;
     Inbox mInbox;
     bool mClosing = false;
 
-    // Of the thread alone.
-    qint64 mPatienceMs = 0; ///< silence that is borne
-    qint64 mHeardMs = 0;    ///< when a tick came last, by a clock that only rises
-    int mRefused = 0;
-    bool mToldTooLong = false; ///< once is enough: a dragged light would tell of it without end
+    // Used by the thread only.
+    qint64 mTimeoutMs = 0;  ///< silence that is borne
+    qint64 mLastTickMs = 0; ///< when a tick came last, by a clock that only rises
+    int mRefusals = 0;
+    bool mReportedTooLong = false; ///< once is enough: a dragged light would tell of it without end
 };
 
 } // namespace lampblack

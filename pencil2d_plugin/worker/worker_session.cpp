@@ -15,9 +15,9 @@ namespace
 {
 
 constexpr int LastFrame = 999999;
-constexpr int MostFrames = 100000;
-constexpr int MostDevicePixels = 4096; // a side of a look
-constexpr int MostListLength = 1024;
+constexpr int MaxFrames = 100000;
+constexpr int MaxDevicePixels = 4096; // width or height of a preview
+constexpr int MaxListLength = 1024;
 
 bool isFinite(const QRectF& rect)
 {
@@ -25,7 +25,7 @@ bool isFinite(const QRectF& rect)
            std::isfinite(rect.height());
 }
 
-/// `crop` within what SPEC lets it be.
+/// `crop` within the limits of SPEC 6.
 QRectF bounded(const QRectF& crop)
 {
     constexpr double Far = 100000;
@@ -33,10 +33,10 @@ QRectF bounded(const QRectF& crop)
             qBound(0.01, crop.height(), Far)};
 }
 
-/// `size` shrunk to what may be wanted, its proportions kept.
+/// `size` shrunk to the allowed maximum, with the same proportions.
 QSize bounded(const QSize& size)
 {
-    const QSize most(MostDevicePixels, MostDevicePixels);
+    const QSize most(MaxDevicePixels, MaxDevicePixels);
     const bool fits = size.width() <= most.width() && size.height() <= most.height();
     return (fits ? size : size.scaled(most, Qt::KeepAspectRatio)).expandedTo(QSize(1, 1));
 }
@@ -44,24 +44,24 @@ QSize bounded(const QSize& size)
 bool isOutput(const QString& output)
 {
     static const QRegularExpression pattern(QStringLiteral("\\A/[^%\\x00-\\x1f\\x7f]*%0[1-9]d\\.png\\z"));
-    return output.size() <= MostListLength && pattern.match(output).hasMatch();
+    return output.size() <= MaxListLength && pattern.match(output).hasMatch();
 }
 
 } // namespace
 
 WorkerSession::WorkerSession(const Interpreter& interpreter, qint64 bytesKept, QObject* parent)
-    : Worker(parent), mProcess(interpreter), mBook(bytesKept)
+    : Worker(parent), mProcess(interpreter), mFrameStore(bytesKept)
 {
     connect(&mProcess, &WorkerProcess::ready, this, &WorkerSession::connectTo);
-    connect(&mProcess, &WorkerProcess::lost, this, &WorkerSession::workerLost);
+    connect(&mProcess, &WorkerProcess::lost, this, &WorkerSession::onWorkerLost);
     connect(&mProcess, &WorkerProcess::gaveUp, this,
             [this](const UserError& error)
             {
-                workerLost();
+                onWorkerLost();
                 mJobs.endAll(protocol::Outcome::Failed);
                 Q_EMIT problem(error);
             });
-    connect(&mBook, &FrameBook::shown, this, &WorkerSession::frameShown);
+    connect(&mFrameStore, &FrameStore::frameHashed, this, &WorkerSession::onFrameHashed);
     connect(&mJobs, &RenderJobs::progress, this, &Worker::renderProgress);
     connect(&mJobs, &RenderJobs::frameDone, this, &Worker::renderFrameDone);
     connect(&mJobs, &RenderJobs::ended, this, &Worker::renderDone);
@@ -69,7 +69,7 @@ WorkerSession::WorkerSession(const Interpreter& interpreter, qint64 bytesKept, Q
 
 WorkerSession::~WorkerSession()
 {
-    mProcess.stop(); // it ends while the socket is closed
+    mProcess.stop(); // the process ends while the socket is closed
     delete mLink;
 }
 
@@ -86,7 +86,7 @@ void WorkerSession::start()
 void WorkerSession::stop()
 {
     mProcess.stop();
-    hangUp();
+    closeLink();
     mJobs.endAll(protocol::Outcome::Cancelled);
     updateState();
 }
@@ -94,8 +94,8 @@ void WorkerSession::stop()
 void WorkerSession::putFrame(int frame, const QImage& pixels, const QTransform& camera)
 {
     const protocol::Limits limits;
-    const bool known = mBook.frames().contains(frame);
-    if (frame < 0 || frame > LastFrame || (!known && mBook.frames().size() >= MostFrames))
+    const bool known = mFrameStore.frames().contains(frame);
+    if (frame < 0 || frame > LastFrame || (!known && mFrameStore.frames().size() >= MaxFrames))
     {
         return;
     }
@@ -113,29 +113,29 @@ void WorkerSession::putFrame(int frame, const QImage& pixels, const QTransform& 
                         QStringLiteral("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height())});
         return;
     }
-    mBook.put(frame, pixels, camera);
+    mFrameStore.put(frame, pixels, camera);
 }
 
 void WorkerSession::dropFrame(int frame)
 {
-    const bool known = mBook.frames().contains(frame);
-    mBook.drop(frame);
-    mPalettes.remove(frame);
+    const bool known = mFrameStore.frames().contains(frame);
+    mFrameStore.drop(frame);
+    mPaletteRequests.remove(frame);
     if (known)
     {
-        send(protocol::DropFrame{frame});
+        sendMessage(protocol::DropFrame{frame});
     }
 }
 
 void WorkerSession::dropAllFrames()
 {
-    const QList<int> frames = mBook.frames().keys();
-    mBook.clear();
-    mPalettes.clear();
-    mOwed.clear();
+    const QList<int> frames = mFrameStore.frames().keys();
+    mFrameStore.clear();
+    mPaletteRequests.clear();
+    mNeeded.clear();
     for (const int frame : frames)
     {
-        send(protocol::DropFrame{frame});
+        sendMessage(protocol::DropFrame{frame});
     }
 }
 
@@ -151,47 +151,47 @@ void WorkerSession::setScene(const Scene& scene)
     sendScene();
     if (first)
     {
-        sendLook();
+        sendPreviewRequest();
     }
 }
 
-bool WorkerSession::isCurrent(const LookImage& image) const
+bool WorkerSession::isCurrent(const PreviewImage& image) const
 {
-    const auto shown = mBook.frames().constFind(image.frame);
-    return shown != mBook.frames().constEnd() && shown->digest == image.digest &&
+    const auto shown = mFrameStore.frames().constFind(image.frame);
+    return shown != mFrameStore.frames().constEnd() && shown->digest == image.digest &&
            (image.show != Show::Lit || mSceneRevisions.contains(image.revision));
 }
 
-void WorkerSession::look(int frame, Show show, const QRectF& crop, const QSize& size)
+void WorkerSession::requestPreview(int frame, Show show, const QRectF& crop, const QSize& size)
 {
     if (frame < 0 || frame > LastFrame || !isFinite(crop) || crop.isEmpty() || size.isEmpty())
     {
-        stopLooking();
+        cancelPreview();
         return;
     }
-    const Look wanted{frame, show, bounded(crop), bounded(size)};
-    if (mLook && mLook->request != 0 && mLook->frame == frame && mLook->show == show &&
-        mLook->crop == wanted.crop && mLook->size == wanted.size)
+    const PreviewRequest wanted{frame, show, bounded(crop), bounded(size)};
+    if (mPreview && mPreview->request != 0 && mPreview->frame == frame && mPreview->show == show &&
+        mPreview->crop == wanted.crop && mPreview->size == wanted.size)
     {
         return;
     }
-    mLook = wanted;
-    sendLook();
+    mPreview = wanted;
+    sendPreviewRequest();
 }
 
-void WorkerSession::stopLooking()
+void WorkerSession::cancelPreview()
 {
-    if (mLook && mLook->request != 0)
+    if (mPreview && mPreview->request != 0)
     {
-        send(protocol::Cancel{mLook->request});
+        sendMessage(protocol::Cancel{mPreview->request});
     }
-    mLook.reset();
+    mPreview.reset();
 }
 
-void WorkerSession::askPalette(int frame)
+void WorkerSession::requestPalette(int frame)
 {
-    mPalettes.insert(frame, 0);
-    sendPalettes();
+    mPaletteRequests.insert(frame, 0);
+    sendPaletteRequests();
 }
 
 quint64 WorkerSession::render(const QString& frames, const QString& output, Quality quality,
@@ -220,10 +220,10 @@ quint64 WorkerSession::render(const QString& frames, const QString& output, Qual
     job.quality = quality;
     job.keepFinished = keepFinished;
     job.scene = mScene;
-    job.lastPut = mBook.lastPut();
+    job.lastPut = mFrameStore.lastPut();
     job.total = list->size();
     const quint64 number = mJobs.add(job);
-    // After the caller has the number.
+    // Later, when the caller knows the number.
     QMetaObject::invokeMethod(this, &WorkerSession::sendJobs, Qt::QueuedConnection);
     return number;
 }
@@ -251,7 +251,7 @@ void WorkerSession::cancelRender(quint64 job)
     }
     if (found->request != 0)
     {
-        send(protocol::Cancel{found->request});
+        sendMessage(protocol::Cancel{found->request});
     }
     else
     {
@@ -262,7 +262,7 @@ void WorkerSession::cancelRender(quint64 job)
 
 void WorkerSession::connectTo(const QString& endpoint)
 {
-    hangUp();
+    closeLink();
     try
     {
         mLink = new WorkerLink(endpoint, this);
@@ -272,8 +272,8 @@ void WorkerSession::connectTo(const QString& endpoint)
         mProcess.replace(QString::fromLocal8Bit(error.what()));
         return;
     }
-    connect(mLink, &WorkerLink::arrived, this, &WorkerSession::takeIn);
-    connect(mLink, &WorkerLink::silent, this,
+    connect(mLink, &WorkerLink::messagesArrived, this, &WorkerSession::handleIncoming);
+    connect(mLink, &WorkerLink::connectionLost, this,
             [this, link = mLink]
             {
                 if (link == mLink)
@@ -285,37 +285,37 @@ void WorkerSession::connectTo(const QString& endpoint)
     mLink->send({protocol::Hello{protocol::Minor, QStringLiteral("pencil2d"), version, {}}, {}});
 }
 
-void WorkerSession::hangUp()
+void WorkerSession::closeLink()
 {
     mGreeted = false;
     mStatus.reset();
     if (mLink != nullptr)
     {
-        std::exchange(mLink, nullptr)->retire();
+        std::exchange(mLink, nullptr)->closeLater();
     }
 }
 
-void WorkerSession::workerLost()
+void WorkerSession::onWorkerLost()
 {
     mWasLost = true;
-    hangUp();
+    closeLink();
     mJobs.forgetRequests();
     updateState();
 }
 
-void WorkerSession::takeIn()
+void WorkerSession::handleIncoming()
 {
     WorkerLink* const link = mLink;
     if (link == nullptr)
     {
         return;
     }
-    const QVector<Incoming> taken = link->take();
+    const QVector<Incoming> taken = link->takeIncoming();
     for (const Incoming& incoming : taken)
     {
         if (link != mLink)
         {
-            return; // what one message did ended the connection
+            return; // a message before has ended the connection
         }
         std::visit(
             [this, &incoming](const auto& message)
@@ -329,7 +329,7 @@ void WorkerSession::takeIn()
                                    std::is_same_v<Kind, protocol::FrameDone> ||
                                    std::is_same_v<Kind, protocol::Done>)
                 {
-                    mJobs.take(message);
+                    mJobs.handle(message);
                 }
                 else if constexpr (std::is_same_v<Kind, protocol::Bye>)
                 {

@@ -1,8 +1,8 @@
-// The worker in its process, over its socket: the one real Worker.
+// The Worker that runs in a process of its own and is reached through a socket.
 #pragma once
 
-#include "worker/frame_book.h"
-#include "worker/look_order.h"
+#include "worker/frame_store.h"
+#include "worker/image_rank.h"
 #include "worker/render_jobs.h"
 #include "worker/worker.h"
 #include "worker/worker_link.h"
@@ -15,17 +15,17 @@
 namespace lampblack
 {
 
-/// Keeps what is wanted (frames, scene, look, palettes, jobs) and tells every new worker all of it. Of the UI
-/// thread; hashing, encoding and decoding happen elsewhere. Errors come by problem().
+/// Keeps the frames, the scene and the requests, and sends them to every new worker process. To be used from
+/// the UI thread; hashing, encoding and decoding happen in other threads. Errors are emitted by problem().
 class WorkerSession : public Worker
 {
     Q_OBJECT
 
 public:
-    /// Of drawings about `bytesKept` stay in memory; others are asked for by frameWanted().
+    /// About `bytesKept` of drawings stay in memory; others are asked for again by frameNeeded().
     explicit WorkerSession(const Interpreter& interpreter = findInterpreter(), qint64 bytesKept = 512LL << 20,
                            QObject* parent = nullptr);
-    /// Waits for the worker's end, at most 2 s: for the program's exit.
+    /// Waits for the worker's end, at most 2 s.
     ~WorkerSession() override;
 
     State state() const override { return mState; }
@@ -36,10 +36,10 @@ public:
     void dropAllFrames() override;
     void setScene(const Scene& scene) override;
     quint64 revision() const override { return mRevision; }
-    bool isCurrent(const LookImage& image) const override;
-    void look(int frame, Show show, const QRectF& crop, const QSize& size) override;
-    void stopLooking() override;
-    void askPalette(int frame) override;
+    bool isCurrent(const PreviewImage& image) const override;
+    void requestPreview(int frame, Show show, const QRectF& crop, const QSize& size) override;
+    void cancelPreview() override;
+    void requestPalette(int frame) override;
     quint64 render(const QString& frames, const QString& output, Quality quality,
                    bool keepFinished = false) override;
     void cancelRender(quint64 job) override;
@@ -47,30 +47,30 @@ public:
     qint64 workerPid() const { return mProcess.pid(); } ///< 0 while there is none
 
 private:
-    struct Look
+    struct PreviewRequest
     {
         int frame = 0;
         Show show = Show::Lit;
         QRectF crop;
         QSize size;
-        quint64 request = 0; ///< 0 while it is not asked of a worker
+        quint64 request = 0; ///< 0 while it is not sent
     };
 
     void connectTo(const QString& endpoint);
-    void hangUp();
-    void workerLost();
-    void takeIn();
+    void closeLink();
+    void onWorkerLost();
+    void handleIncoming();
     void updateState();
 
-    void send(const protocol::Message& message, const QImage& pixels = {});
-    void announceAll();
-    void announce(int frame);
-    void sendPlanes(int frame, const QByteArray& digest);
+    void sendMessage(const protocol::Message& message, const QImage& pixels = {});
+    void sendAll();
+    void announceFrame(int frame);
+    void sendPixels(int frame, const QByteArray& digest);
     void sendScene();
-    void sendLook();
-    void sendPalettes();
+    void sendPreviewRequest();
+    void sendPaletteRequests();
     void sendJobs();
-    void frameShown(int frame, bool changed);
+    void onFrameHashed(int frame, bool changed);
     quint64 refuseJob(const UserError& error);
 
     void handle(const protocol::Welcome& welcome);
@@ -84,19 +84,19 @@ private:
     WorkerLink* mLink = nullptr;
     State mState = State::Absent;
     bool mGreeted = false;
-    bool mWasLost = false; ///< since start(): the state is restarting rather than starting
+    bool mWasLost = false; ///< since start(): the state is Restarting, not Starting
     std::optional<protocol::Status> mStatus;
-    quint64 mRequest = 0;  ///< the last one, of all workers
-    quint64 mRevision = 0; ///< the last one, of all workers
+    quint64 mRequest = 0;  ///< the last one sent to any worker process
+    quint64 mRevision = 0; ///< the last one sent to any worker process
 
-    FrameBook mBook;
-    QSet<QByteArray> mOwed; ///< drawings that were asked for when they had been let go
+    FrameStore mFrameStore;
+    QSet<QByteArray> mNeeded; ///< digests whose pixels the worker waits for
     std::optional<Scene> mScene;
-    QSet<quint64> mSceneRevisions; ///< under which mScene was sent
-    QSet<quint64> mJobRevisions;   ///< under which the scene of a job was sent that is not mScene
-    std::optional<Look> mLook;
-    ImageRank mShown;             ///< of the last image that was passed on
-    QMap<int, quint64> mPalettes; ///< request by frame, 0 while it is not asked of a worker
+    QSet<quint64> mSceneRevisions; ///< revisions under which mScene was sent
+    QSet<quint64> mJobRevisions;   ///< revisions of the scenes of jobs that differ from mScene
+    std::optional<PreviewRequest> mPreview;
+    ImageRank mShownRank;                ///< rank of the last image that was emitted
+    QMap<int, quint64> mPaletteRequests; ///< request by frame, 0 while it is not sent
     RenderJobs mJobs;
 };
 

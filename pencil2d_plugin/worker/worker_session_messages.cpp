@@ -1,4 +1,4 @@
-// What a session says to its worker, and what it makes of the answers.
+// The messages that a session sends to the worker, and how it handles the answers.
 #include "worker/worker_session.h"
 
 #include "protocol/planes.h"
@@ -12,7 +12,7 @@ namespace lampblack
 namespace
 {
 
-constexpr int MostListLength = 1024;
+constexpr int MaxListLength = 1024;
 
 protocol::Show wireShow(Show show)
 {
@@ -28,7 +28,7 @@ protocol::Show wireShow(Show show)
     return protocol::Show::Lit;
 }
 
-/// Errors after which a job has no other end.
+/// Whether the job ends with this error, without a "done" message.
 bool endsJob(const protocol::Error& error)
 {
     static const QStringList codes = {QStringLiteral("no_scene"), QStringLiteral("unknown_frame"),
@@ -38,7 +38,7 @@ bool endsJob(const protocol::Error& error)
 
 } // namespace
 
-void WorkerSession::send(const protocol::Message& message, const QImage& pixels)
+void WorkerSession::sendMessage(const protocol::Message& message, const QImage& pixels)
 {
     if (mGreeted && !mLink->send({message, pixels}))
     {
@@ -46,45 +46,45 @@ void WorkerSession::send(const protocol::Message& message, const QImage& pixels)
     }
 }
 
-void WorkerSession::announceAll()
+void WorkerSession::sendAll()
 {
-    const QList<int> frames = mBook.frames().keys();
+    const QList<int> frames = mFrameStore.frames().keys();
     for (const int frame : frames)
     {
-        announce(frame);
+        announceFrame(frame);
     }
     sendScene();
-    if (mLook)
+    if (mPreview)
     {
-        mLook->request = 0;
+        mPreview->request = 0;
     }
-    for (quint64& request : mPalettes)
+    for (quint64& request : mPaletteRequests)
     {
         request = 0;
     }
-    sendLook();
-    sendPalettes();
+    sendPreviewRequest();
+    sendPaletteRequests();
     sendJobs();
 }
 
-void WorkerSession::announce(int frame)
+void WorkerSession::announceFrame(int frame)
 {
-    const ShownFrame shown = mBook.frames().value(frame);
-    send(protocol::PutFrame{frame, shown.digest, shown.camera, {}});
+    const ShownFrame shown = mFrameStore.frames().value(frame);
+    sendMessage(protocol::PutFrame{frame, shown.digest, shown.camera, {}});
 }
 
-void WorkerSession::sendPlanes(int frame, const QByteArray& digest)
+void WorkerSession::sendPixels(int frame, const QByteArray& digest)
 {
-    const QImage pixels = mBook.drawing(digest);
+    const QImage pixels = mFrameStore.drawing(digest);
     if (pixels.isNull())
     {
-        mOwed.insert(digest);
-        Q_EMIT frameWanted(frame);
+        mNeeded.insert(digest);
+        Q_EMIT frameNeeded(frame);
         return;
     }
-    mOwed.remove(digest);
+    mNeeded.remove(digest);
     const protocol::Plane plane = protocol::viewOf(protocol::Role::Pixels, pixels).plane;
-    send(protocol::PutFrame{frame, digest, mBook.frames().value(frame).camera, {plane}}, pixels);
+    sendMessage(protocol::PutFrame{frame, digest, mFrameStore.frames().value(frame).camera, {plane}}, pixels);
 }
 
 void WorkerSession::sendScene()
@@ -92,38 +92,39 @@ void WorkerSession::sendScene()
     if (mScene)
     {
         mSceneRevisions.insert(++mRevision);
-        send(protocol::SetScene{mRevision, *mScene});
+        sendMessage(protocol::SetScene{mRevision, *mScene});
     }
 }
 
-void WorkerSession::sendLook()
+void WorkerSession::sendPreviewRequest()
 {
-    const bool lit = mLook && mLook->show == Show::Lit;
-    if (!mGreeted || !mLook || !mBook.frames().contains(mLook->frame) || (lit && !mScene))
+    const bool lit = mPreview && mPreview->show == Show::Lit;
+    if (!mGreeted || !mPreview || !mFrameStore.frames().contains(mPreview->frame) || (lit && !mScene))
     {
         return;
     }
-    mLook->request = ++mRequest;
-    const QSize size = mLook->size;
+    mPreview->request = ++mRequest;
+    const QSize size = mPreview->size;
     if (lit)
     {
-        send(protocol::Preview{mRequest, mLook->frame, mLook->crop, size.width(), size.height()});
+        sendMessage(
+            protocol::Preview{mRequest, mPreview->frame, mPreview->crop, size.width(), size.height()});
     }
     else
     {
-        send(protocol::View{mRequest, mLook->frame, wireShow(mLook->show), mLook->crop, size.width(),
-                            size.height()});
+        sendMessage(protocol::View{mRequest, mPreview->frame, wireShow(mPreview->show), mPreview->crop,
+                                   size.width(), size.height()});
     }
 }
 
-void WorkerSession::sendPalettes()
+void WorkerSession::sendPaletteRequests()
 {
-    for (auto wanted = mPalettes.begin(); mGreeted && wanted != mPalettes.end(); ++wanted)
+    for (auto palette = mPaletteRequests.begin(); mGreeted && palette != mPaletteRequests.end(); ++palette)
     {
-        if (wanted.value() == 0 && mBook.frames().contains(wanted.key()))
+        if (palette.value() == 0 && mFrameStore.frames().contains(palette.key()))
         {
-            wanted.value() = ++mRequest;
-            send(protocol::GetPalette{mRequest, wanted.key()});
+            palette.value() = ++mRequest;
+            sendMessage(protocol::GetPalette{mRequest, palette.key()});
         }
     }
 }
@@ -134,12 +135,12 @@ void WorkerSession::sendJobs()
     for (const quint64 number : numbers)
     {
         RenderJob& job = mJobs.jobs()[number];
-        if (!mGreeted || job.request != 0 || !mBook.isSettled(job.lastPut))
+        if (!mGreeted || job.request != 0 || !mFrameStore.isHashed(job.lastPut))
         {
             continue;
         }
         const QString frames = formatFrames(job.frames);
-        if (frames.isEmpty() || frames.size() > MostListLength)
+        if (frames.isEmpty() || frames.size() > MaxListLength)
         {
             mJobs.end(number, frames.isEmpty() ? protocol::Outcome::Finished : protocol::Outcome::Failed);
             continue;
@@ -148,11 +149,11 @@ void WorkerSession::sendJobs()
         if (other)
         {
             mJobRevisions.insert(++mRevision);
-            send(protocol::SetScene{mRevision, *job.scene});
+            sendMessage(protocol::SetScene{mRevision, *job.scene});
         }
         job.request = ++mRequest;
         ++job.asked;
-        send(protocol::Render{mRequest, frames, job.output, job.quality, job.keepFinished});
+        sendMessage(protocol::Render{mRequest, frames, job.output, job.quality, job.keepFinished});
         if (other)
         {
             sendScene();
@@ -160,71 +161,72 @@ void WorkerSession::sendJobs()
     }
 }
 
-void WorkerSession::frameShown(int frame, bool changed)
+void WorkerSession::onFrameHashed(int frame, bool changed)
 {
-    const QByteArray digest = mBook.frames().value(frame).digest;
-    if (mOwed.contains(digest))
+    const QByteArray digest = mFrameStore.frames().value(frame).digest;
+    if (mNeeded.contains(digest))
     {
-        sendPlanes(frame, digest);
+        sendPixels(frame, digest);
     }
     else if (changed)
     {
-        announce(frame);
+        announceFrame(frame);
     }
-    if (mLook && mLook->frame == frame && mLook->request == 0)
+    if (mPreview && mPreview->frame == frame && mPreview->request == 0)
     {
-        sendLook();
+        sendPreviewRequest();
     }
-    sendPalettes();
+    sendPaletteRequests();
     sendJobs();
 }
 
 void WorkerSession::handle(const protocol::Welcome& /*welcome*/)
 {
     mGreeted = true;
-    announceAll();
+    sendAll();
     updateState();
 }
 
 void WorkerSession::handle(const protocol::NeedFrame& need)
 {
-    if (mBook.frames().value(need.frame).digest == need.digest)
+    if (mFrameStore.frames().value(need.frame).digest == need.digest)
     {
-        sendPlanes(need.frame, need.digest);
+        sendPixels(need.frame, need.digest);
     }
 }
 
 void WorkerSession::handle(const protocol::Image& image, const QImage& picture)
 {
-    const auto shown = mBook.frames().constFind(image.frame);
-    const bool wanted = mLook && image.frame == mLook->frame && image.show == wireShow(mLook->show) &&
-                        shown != mBook.frames().constEnd() && image.digest == shown->digest;
-    const bool ours = image.request <= mRequest && image.revision <= mRevision &&
-                      !mJobRevisions.contains(image.revision) && !picture.isNull();
-    const ImageRank rank{image.request, wanted ? shown->drawing : 0, image.revision, image.pass};
-    if (!wanted || !ours || !(mShown < rank))
+    const auto shown = mFrameStore.frames().constFind(image.frame);
+    const bool isWanted = mPreview && image.frame == mPreview->frame &&
+                          image.show == wireShow(mPreview->show) &&
+                          shown != mFrameStore.frames().constEnd() && image.digest == shown->digest;
+    const bool isOurs = image.request <= mRequest && image.revision <= mRevision &&
+                        !mJobRevisions.contains(image.revision) && !picture.isNull();
+    const ImageRank rank{image.request, isWanted ? shown->drawing : 0, image.revision, image.pass};
+    if (!isWanted || !isOurs || !(mShownRank < rank))
     {
         return;
     }
-    mShown = rank;
+    mShownRank = rank;
     const int pass = static_cast<int>(qMin(image.pass, quint64(std::numeric_limits<int>::max())));
-    Q_EMIT imageArrived(
-        {image.frame, mLook->show, image.crop, picture, image.digest, image.revision, pass, image.converged});
+    Q_EMIT imageArrived({image.frame, mPreview->show, image.crop, picture, image.digest, image.revision, pass,
+                         image.converged});
 }
 
 void WorkerSession::handle(const protocol::Palette& palette)
 {
-    if (mPalettes.value(palette.frame) != palette.request)
+    if (mPaletteRequests.value(palette.frame) != palette.request)
     {
         return;
     }
-    if (mBook.frames().value(palette.frame).digest != palette.digest)
+    if (mFrameStore.frames().value(palette.frame).digest != palette.digest)
     {
-        mPalettes[palette.frame] = 0; // redrawn meanwhile
-        sendPalettes();
+        mPaletteRequests[palette.frame] = 0; // the drawing has changed meanwhile
+        sendPaletteRequests();
         return;
     }
-    mPalettes.remove(palette.frame);
+    mPaletteRequests.remove(palette.frame);
     QVector<Swatch> swatches;
     for (const protocol::Swatch& swatch : palette.swatches)
     {
@@ -265,11 +267,11 @@ void WorkerSession::handle(const protocol::Error& error)
                         tr("Give fewer colours a material of their own."), details});
         return;
     }
-    const bool ofLook = mLook && error.request && *error.request == mLook->request;
+    const bool ofPreview = mPreview && error.request && *error.request == mPreview->request;
     const bool expected =
         error.code == QLatin1String("unknown_frame") || error.code == QLatin1String("no_scene");
-    // These right themselves: what is missing is on its way, or the state tells of it.
-    if ((ofLook && expected) || error.code == QLatin1String("render_restarted"))
+    // These need no message: the missing frame or scene is being sent, or the state shows the restart.
+    if ((ofPreview && expected) || error.code == QLatin1String("render_restarted"))
     {
         return;
     }

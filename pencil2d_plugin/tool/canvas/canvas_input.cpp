@@ -14,9 +14,9 @@ namespace lampblack
 namespace
 {
 
-constexpr double Threshold = 3; // a shaky click is no drag
+constexpr double DragThreshold = 3; // pixels; less is a click
 constexpr int TagMs = 900;
-constexpr qint64 ZoomPauseMs = 500;
+constexpr qint64 MaxZoomPauseMs = 500;
 constexpr double NotchUnits = 120;
 
 QCursor lampCursor()
@@ -48,7 +48,7 @@ void CanvasInput::setListening(bool listening)
     mListening = listening;
     if (listening)
     {
-        showCursor();
+        updateCursor();
         return;
     }
     mDrag.reset();
@@ -58,7 +58,7 @@ void CanvasInput::setListening(bool listening)
     mOverlay.setHovered({});
     mOverlay.setTag(QString(), QPointF());
     restoreCursor();
-    Q_EMIT left();
+    Q_EMIT pointerLeft();
 }
 
 void CanvasInput::setPicking(bool picking)
@@ -67,7 +67,7 @@ void CanvasInput::setPicking(bool picking)
         return;
     mPicking = picking;
     if (mListening)
-        showCursor();
+        updateCursor();
     Q_EMIT pickingChanged(picking);
 }
 
@@ -75,12 +75,12 @@ void CanvasInput::cancelDrag()
 {
     if (!mDrag)
         return;
-    if (mMoved)
-        mDocument.edit(mDrag->text(), mDrag->restored(mDocument.scene()), mDrag->gesture());
+    if (mHasMoved)
+        mDocument.edit(mDrag->undoText(), mDrag->restored(mDocument.scene()), mDrag->gesture());
     mDrag.reset();
     mSwallowRelease = true;
     mOverlay.setTag(QString(), QPointF());
-    showCursor();
+    updateCursor();
 }
 
 bool CanvasInput::eventFilter(QObject* watched, QEvent* event)
@@ -93,70 +93,70 @@ bool CanvasInput::eventFilter(QObject* watched, QEvent* event)
     case QEvent::MouseButtonDblClick:
     case QEvent::MouseMove:
     case QEvent::MouseButtonRelease:
-        return mouse(event);
+        return handleMouse(event);
     case QEvent::TabletPress:
     case QEvent::TabletMove:
     case QEvent::TabletRelease:
-        return tablet(event);
+        return handleTablet(event);
     case QEvent::Wheel:
-        return wheel(event);
+        return handleWheel(event);
     case QEvent::Leave:
         if (!mDrag)
             mOverlay.setHovered({});
-        Q_EMIT left();
+        Q_EMIT pointerLeft();
         return false;
     case QEvent::ContextMenu:
         event->accept();
-        return true; // the press of the right button has opened ours
+        return true; // our menu was opened when the right button was pressed
     default:
         return false;
     }
 }
 
-bool CanvasInput::mouse(QEvent* event)
+bool CanvasInput::handleMouse(QEvent* event)
 {
-    if (mPenDown) // the window system may follow a pen with a mouse of its own
+    if (mPenDown) // the window system may send mouse events for the pen too
         return true;
     const auto& mouse = static_cast<QMouseEvent&>(*event);
     const Pointer pointer{mouse.localPos(), mouse.globalPos(), mouse.button(), mouse.buttons(),
                           mouse.modifiers()};
-    bool ours = false;
+    bool isOurs = false;
     if (event->type() == QEvent::MouseMove)
-        ours = move(pointer);
+        isOurs = handleMove(pointer);
     else if (event->type() == QEvent::MouseButtonRelease)
-        ours = release(pointer);
+        isOurs = handleRelease(pointer);
     else
-        ours = press(pointer);
-    if (ours)
+        isOurs = handlePress(pointer);
+    if (isOurs)
         event->accept();
-    return ours;
+    return isOurs;
 }
 
-bool CanvasInput::tablet(QEvent* event)
+bool CanvasInput::handleTablet(QEvent* event)
 {
     const auto& pen = static_cast<QTabletEvent&>(*event);
     const Pointer pointer{pen.posF(), pen.globalPos(), pen.button(), pen.buttons(), pen.modifiers()};
-    bool ours = false;
+    bool isOurs = false;
     if (event->type() == QEvent::TabletMove)
     {
-        ours = move(pointer);
+        isOurs = handleMove(pointer);
     }
     else if (event->type() == QEvent::TabletRelease)
     {
-        ours = release(pointer);
+        isOurs = handleRelease(pointer);
         mPenDown = false;
     }
     else
     {
-        ours = press(pointer);
-        mPenDown = ours;
+        isOurs = handlePress(pointer);
+        mPenDown = isOurs;
     }
-    if (ours)
+    if (isOurs)
         event->accept();
-    return ours;
+    return isOurs;
 }
 
-bool CanvasInput::press(const Pointer& pointer)
+bool CanvasInput::handlePress(const Pointer& pointer)
 {
     if (mDrag || !mOverlay.canvasToWidget())
         return mDrag.has_value();
@@ -167,7 +167,7 @@ bool CanvasInput::press(const Pointer& pointer)
         const Handle handle = mOverlay.handles().at(pointer.position);
         if (handle.light >= 0)
             mDocument.selectLight(handle.light);
-        Q_EMIT menuRequested(onCanvas(pointer.position), pointer.global, handle);
+        Q_EMIT menuRequested(toCanvas(pointer.position), pointer.global, handle);
         return true;
     }
     if (pointer.button != Qt::LeftButton)
@@ -177,84 +177,84 @@ bool CanvasInput::press(const Pointer& pointer)
     {
         mSwallowRelease = true;
         setPicking(false);
-        Q_EMIT picked(onCanvas(pointer.position));
+        Q_EMIT colourPicked(toCanvas(pointer.position));
         return true;
     }
     const Handle handle = mOverlay.handles().at(pointer.position);
     if (handle.part == HandlePart::None)
     {
         mSwallowRelease = true;
-        return true; // with the lamp in hand nothing is drawn
+        return true; // the lamp does not draw
     }
     if (handle.light >= 0)
         mDocument.selectLight(handle.light);
     mDrag.emplace(handle, pointer.modifiers.testFlag(Qt::AltModifier), pointer.position, mDocument.scene(),
                   mHost.currentFrame(), mOverlay.handles(), *mOverlay.canvasToWidget());
-    mPressed = pointer.position;
-    mMoved = false;
-    showCursor();
+    mPressPosition = pointer.position;
+    mHasMoved = false;
+    updateCursor();
     return true;
 }
 
-bool CanvasInput::move(const Pointer& pointer)
+bool CanvasInput::handleMove(const Pointer& pointer)
 {
     if (mDrag)
     {
         if (pointer.buttons.testFlag(Qt::LeftButton))
-            drag(pointer);
+            continueDrag(pointer);
         else
-            release({pointer.position, pointer.global, Qt::LeftButton, {}, pointer.modifiers});
+            handleRelease({pointer.position, pointer.global, Qt::LeftButton, {}, pointer.modifiers});
         return true;
     }
     if (pointer.buttons != Qt::NoButton)
         return mSwallowRelease;
     mOverlay.setHovered(mPicking ? Handle() : mOverlay.handles().at(pointer.position));
-    showCursor();
+    updateCursor();
     if (mOverlay.canvasToWidget())
-        Q_EMIT pointed(onCanvas(pointer.position));
+        Q_EMIT pointerMoved(toCanvas(pointer.position));
     return false;
 }
 
-bool CanvasInput::release(const Pointer& pointer)
+bool CanvasInput::handleRelease(const Pointer& pointer)
 {
     if (mDrag && pointer.button == Qt::LeftButton)
     {
         mDrag.reset();
         mTagTimer.start();
         mOverlay.setHovered(mOverlay.handles().at(pointer.position));
-        showCursor();
+        updateCursor();
         return true;
     }
     if (mDrag)
         return true;
-    const bool ours = mSwallowRelease;
+    const bool isOurs = mSwallowRelease;
     mSwallowRelease = false;
-    return ours;
+    return isOurs;
 }
 
-void CanvasInput::drag(const Pointer& pointer)
+void CanvasInput::continueDrag(const Pointer& pointer)
 {
-    if (!mMoved && QLineF(mPressed, pointer.position).length() < Threshold)
+    if (!mHasMoved && QLineF(mPressPosition, pointer.position).length() < DragThreshold)
         return;
-    mMoved = true;
+    mHasMoved = true;
     const bool constrain = pointer.modifiers.testFlag(Qt::ShiftModifier);
-    mDocument.edit(mDrag->text(), mDrag->moved(mDocument.scene(), pointer.position, constrain),
+    mDocument.edit(mDrag->undoText(), mDrag->moved(mDocument.scene(), pointer.position, constrain),
                    mDrag->gesture());
-    tell(mDrag->handle(), pointer.position, mDrag->kind());
+    showValueTag(mDrag->handle(), pointer.position, mDrag->kind());
 }
 
-bool CanvasInput::wheel(QEvent* event)
+bool CanvasInput::handleWheel(QEvent* event)
 {
     auto& wheel = static_cast<QWheelEvent&>(*event);
     const Handle handle = mOverlay.handles().at(wheel.position());
     const double notches = wheel.angleDelta().y() / NotchUnits;
     if (mDrag)
         return true;
-    // A light that comes under the pointer while the artist zooms must not end the zoom.
-    const bool isZooming = mZoomed.isValid() && mZoomed.elapsed() < ZoomPauseMs;
+    // If a light comes under the pointer while the artist zooms, the wheel goes on zooming.
+    const bool isZooming = mSinceZoom.isValid() && mSinceZoom.elapsed() < MaxZoomPauseMs;
     if (handle.part == HandlePart::None || isZooming || wheel.modifiers().testFlag(Qt::ControlModifier))
     {
-        mZoomed.start();
+        mSinceZoom.start();
         return false;
     }
     wheel.accept();
@@ -264,15 +264,15 @@ bool CanvasInput::wheel(QEvent* event)
     const QString text = isFloor ? tr("Pitch Floor") : tr("Change Light Height");
     const int frame = mHost.currentFrame();
     const bool fine = wheel.modifiers().testFlag(Qt::ShiftModifier);
-    mDocument.edit(
-        text, turned(mDocument.scene(), frame, handle, notches, fine),
-        mWheelRun.of(QStringLiteral("%1 %2 %3").arg(int(handle.part)).arg(handle.light).arg(frame)));
-    tell(handle, wheel.position(), isFloor ? Drag::Kind::FloorPitch : Drag::Kind::LightHeight);
+    mDocument.edit(text, turnedByWheel(mDocument.scene(), frame, handle, notches, fine),
+                   mWheelGestures.gestureFor(
+                       QStringLiteral("%1 %2 %3").arg(int(handle.part)).arg(handle.light).arg(frame)));
+    showValueTag(handle, wheel.position(), isFloor ? Drag::Kind::FloorPitch : Drag::Kind::LightHeight);
     mTagTimer.start();
     return true;
 }
 
-void CanvasInput::tell(const Handle& handle, const QPointF& beside, Drag::Kind kind)
+void CanvasInput::showValueTag(const Handle& handle, const QPointF& position, Drag::Kind kind)
 {
     const Scene scene = sceneAt(mDocument.scene(), mHost.currentFrame());
     const AreaLight light = scene.lights.value(handle.light);
@@ -281,7 +281,7 @@ void CanvasInput::tell(const Handle& handle, const QPointF& beside, Drag::Kind k
     switch (kind)
     {
     case Drag::Kind::LightPlace:
-        break; // the picture says it better
+        break; // no tag: the picture shows it
     case Drag::Kind::LightHeight:
         text = light.z < 0 ? tr("Behind the paper: %1").arg(qRound(-light.z))
                            : tr("Height: %1").arg(qRound(light.z));
@@ -297,17 +297,17 @@ void CanvasInput::tell(const Handle& handle, const QPointF& beside, Drag::Kind k
         break;
     }
     mTagTimer.stop();
-    mOverlay.setTag(text, beside);
+    mOverlay.setTag(text, position);
 }
 
-void CanvasInput::showCursor()
+void CanvasInput::updateCursor()
 {
     QCursor cursor = mLampCursor;
     const HandlePart part = mDrag ? mDrag->handle().part : mOverlay.hovered().part;
     if (mPicking)
         cursor = Qt::CrossCursor;
     else if (part == HandlePart::Light || part == HandlePart::Size)
-        cursor = Qt::ArrowCursor; // a hand would hide the light
+        cursor = Qt::ArrowCursor; // the lamp cursor would hide the light
     else if (part == HandlePart::Height || part == HandlePart::Floor)
         cursor = Qt::SizeVerCursor;
     QWidget& canvas = *mHost.canvas();
@@ -320,13 +320,13 @@ void CanvasInput::showCursor()
 
 void CanvasInput::restoreCursor()
 {
-    // The tool that follows may have set its own already: that one stays.
+    // The next tool may have set its cursor already.
     if (mCursorBefore && mHost.canvas() && mHost.canvas()->cursor() == mCursorShown)
         mHost.canvas()->setCursor(*mCursorBefore);
     mCursorBefore.reset();
 }
 
-QPointF CanvasInput::onCanvas(const QPointF& position) const
+QPointF CanvasInput::toCanvas(const QPointF& position) const
 {
     return mOverlay.canvasToWidget()->inverted().map(position);
 }

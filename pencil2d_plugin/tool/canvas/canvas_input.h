@@ -1,4 +1,4 @@
-// Mouse, pen and wheel on the canvas, turned into edits of the scene.
+// Turns mouse, pen and wheel events of the canvas into edits of the scene.
 #pragma once
 
 #include "host/host.h"
@@ -17,8 +17,8 @@
 namespace lampblack
 {
 
-/// Filters the canvas's events. While it listens, left button, right button and a wheel over a handle
-/// are ours; everything else (panning, zooming) goes to the drawing program.
+/// An event filter of the canvas. While it listens it takes the left button, the right button and the wheel
+/// over a handle. Everything else (panning, zooming) goes to the drawing program.
 class CanvasInput : public QObject
 {
     Q_OBJECT
@@ -30,20 +30,20 @@ public:
     bool isListening() const { return mListening; }
     void setListening(bool listening);
 
-    /// The next click on the canvas picks a colour instead.
+    /// While picking, the next click on the canvas picks a colour.
     void setPicking(bool picking);
     bool isPicking() const { return mPicking; }
 
     bool isDragging() const { return mDrag.has_value(); }
-    /// Put back what is dragged and forget the drag.
+    /// Move what is dragged back, and end the drag.
     void cancelDrag();
 
 Q_SIGNALS:
-    /// The pointer is over a point of the canvas, canvas pixels.
-    void pointed(const QPointF& canvas);
-    void left();
+    /// `canvas` is the position in canvas pixels, here and in the other signals.
+    void pointerMoved(const QPointF& canvas);
+    void pointerLeft();
     void menuRequested(const QPointF& canvas, const QPoint& global, const lampblack::Handle& handle);
-    void picked(const QPointF& canvas);
+    void colourPicked(const QPointF& canvas);
     void pickingChanged(bool picking);
 
 protected:
@@ -58,30 +58,30 @@ private:
         Qt::MouseButtons buttons;
         Qt::KeyboardModifiers modifiers;
     };
-    bool mouse(QEvent* event);
-    bool tablet(QEvent* event);
-    bool press(const Pointer& pointer);
-    bool move(const Pointer& pointer);
-    bool release(const Pointer& pointer);
-    bool wheel(QEvent* event);
-    void drag(const Pointer& pointer);
-    void tell(const Handle& handle, const QPointF& beside, Drag::Kind kind);
-    void showCursor();
+    bool handleMouse(QEvent* event);
+    bool handleTablet(QEvent* event);
+    bool handlePress(const Pointer& pointer);
+    bool handleMove(const Pointer& pointer);
+    bool handleRelease(const Pointer& pointer);
+    bool handleWheel(QEvent* event);
+    void continueDrag(const Pointer& pointer);
+    void showValueTag(const Handle& handle, const QPointF& position, Drag::Kind kind);
+    void updateCursor();
     void restoreCursor();
-    QPointF onCanvas(const QPointF& position) const;
+    QPointF toCanvas(const QPointF& position) const;
 
     Host& mHost;
     SceneDocument& mDocument;
     CanvasOverlay& mOverlay;
     std::optional<Drag> mDrag;
-    QPointF mPressed;
-    bool mMoved = false;
+    QPointF mPressPosition;
+    bool mHasMoved = false;
     bool mSwallowRelease = false;
     bool mListening = false;
     bool mPicking = false;
     bool mPenDown = false;
-    GestureRun mWheelRun;
-    QElapsedTimer mZoomed; ///< since the wheel last went to the drawing program
+    GestureSequence mWheelGestures;
+    QElapsedTimer mSinceZoom; ///< since the drawing program last got a wheel event
     QTimer mTagTimer;
     QCursor mLampCursor;
     std::optional<QCursor> mCursorBefore;

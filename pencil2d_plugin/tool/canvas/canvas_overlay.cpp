@@ -19,14 +19,14 @@ CanvasOverlay::CanvasOverlay(Host& host, const SceneDocument& document)
     hide();
     setGeometry(host.canvas()->rect());
     host.canvas()->installEventFilter(this);
-    connect(&document, &SceneDocument::sceneChanged, this, &CanvasOverlay::follow);
-    connect(&document, &SceneDocument::selectionChanged, this, &CanvasOverlay::follow);
-    connect(&host, &Host::viewChanged, this, &CanvasOverlay::follow);
+    connect(&document, &SceneDocument::sceneChanged, this, &CanvasOverlay::updateHandles);
+    connect(&document, &SceneDocument::selectionChanged, this, &CanvasOverlay::updateHandles);
+    connect(&host, &Host::viewChanged, this, &CanvasOverlay::updateHandles);
     connect(&host, &Host::frameChanged, this,
             [this]
             {
                 if (isKeyed(mDocument.scene()))
-                    follow();
+                    updateHandles();
             });
 }
 
@@ -35,17 +35,17 @@ bool CanvasOverlay::showsPicture() const
     return !mComparing && !mPicture.isEmpty() && mCanvasToWidget;
 }
 
-void CanvasOverlay::setPicture(const LookImage& look, const QTransform& canvasToImage)
+void CanvasOverlay::setPicture(const PreviewImage& image, const QTransform& canvasToImage)
 {
     const QRect before = mCanvasToWidget ? mPicture.bounds(*mCanvasToWidget) : QRect();
-    mPicture.setPicture(look, canvasToImage);
+    mPicture.setPicture(image, canvasToImage);
     if (mCanvasToWidget)
         update(before.united(mPicture.bounds(*mCanvasToWidget)));
 }
 
-void CanvasOverlay::setSurroundings(const FrameExport& below, const FrameExport& above)
+void CanvasOverlay::setUnlitLayers(const FrameExport& below, const FrameExport& above)
 {
-    mPicture.setSurroundings(below, above);
+    mPicture.setUnlitLayers(below, above);
     if (mCanvasToWidget)
         update(mPicture.bounds(*mCanvasToWidget));
 }
@@ -83,21 +83,21 @@ void CanvasOverlay::setHovered(const Handle& handle)
     update(handlesRegion());
 }
 
-void CanvasOverlay::setTag(const QString& text, const QPointF& beside)
+void CanvasOverlay::setTag(const QString& text, const QPointF& position)
 {
-    if (text == mTag && beside == mTagBeside)
+    if (text == mTag && position == mTagPosition)
         return;
     QRect area;
     if (!mTag.isEmpty())
-        area = tagBounds(font(), mTag, mTagBeside, size());
+        area = tagBounds(font(), mTag, mTagPosition, size());
     mTag = text;
-    mTagBeside = beside;
+    mTagPosition = position;
     if (!mTag.isEmpty())
-        area |= tagBounds(font(), mTag, mTagBeside, size());
+        area |= tagBounds(font(), mTag, mTagPosition, size());
     update(area.adjusted(-1, -1, 1, 1));
 }
 
-void CanvasOverlay::follow()
+void CanvasOverlay::updateHandles()
 {
     if (!isVisible())
         return;
@@ -126,7 +126,7 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
         return;
     paintHandles(painter, mHandles, mHovered);
     if (!mTag.isEmpty())
-        paintTag(painter, mTag, mTagBeside, size());
+        paintTag(painter, mTag, mTagPosition, size());
 }
 
 bool CanvasOverlay::eventFilter(QObject* watched, QEvent* event)
@@ -134,7 +134,7 @@ bool CanvasOverlay::eventFilter(QObject* watched, QEvent* event)
     if (watched == parent() && event->type() == QEvent::Resize)
     {
         setGeometry(parentWidget()->rect());
-        follow();
+        updateHandles();
     }
     return QWidget::eventFilter(watched, event);
 }

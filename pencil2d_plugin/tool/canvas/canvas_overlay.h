@@ -1,4 +1,4 @@
-// What the lamp paints over the drawing program's canvas: the lit picture and the handles.
+// Paints the lit picture and the handles over the canvas of the drawing program.
 #pragma once
 
 #include "host/host.h"
@@ -11,38 +11,37 @@
 namespace lampblack
 {
 
-/// A child of the canvas widget that covers it and lets every event through. Shown while the tool is
-/// in use.
+/// A child widget that covers the canvas and is transparent for events. Shown while the tool is in use.
 class CanvasOverlay : public QWidget
 {
     Q_OBJECT
     Q_PROPERTY(bool showsPicture READ showsPicture)
 
 public:
-    /// `host` has a canvas().
+    /// host.canvas() must not be null.
     CanvasOverlay(Host& host, const SceneDocument& document);
 
     const Handles& handles() const { return mHandles; }
     const std::optional<QTransform>& canvasToWidget() const { return mCanvasToWidget; }
     bool showsPicture() const;
 
-    void setPicture(const LookImage& look, const QTransform& canvasToImage);
-    void setSurroundings(const FrameExport& below, const FrameExport& above);
+    void setPicture(const PreviewImage& image, const QTransform& canvasToImage);
+    void setUnlitLayers(const FrameExport& below, const FrameExport& above);
     void clearPicture();
 
-    /// Show the drawing as drawn, for as long as a key is held.
+    /// While comparing, the drawing is shown as drawn.
     void setComparing(bool comparing);
-    /// The handles step aside while the animation plays.
+    /// Handles are hidden while the animation plays.
     void setHandlesShown(bool shown);
 
     void setHovered(const Handle& handle);
     const Handle& hovered() const { return mHovered; }
-    /// A word beside the pointer; empty for none.
-    void setTag(const QString& text, const QPointF& beside);
+    /// A short text beside the pointer; empty for none.
+    void setTag(const QString& text, const QPointF& position);
 
 public Q_SLOTS:
-    /// The view, the scene or the selection changed.
-    void follow();
+    /// Call after a change of the view, the scene or the selection.
+    void updateHandles();
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -58,7 +57,7 @@ private:
     Handles mHandles;
     Handle mHovered;
     QString mTag;
-    QPointF mTagBeside;
+    QPointF mTagPosition;
     bool mComparing = false;
     bool mHandlesShown = true;
 };

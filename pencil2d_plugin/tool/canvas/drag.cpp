@@ -63,7 +63,7 @@ Drag::Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& 
     }
 }
 
-QString Drag::text() const
+QString Drag::undoText() const
 {
     switch (mKind)
     {
@@ -154,7 +154,7 @@ Floor Drag::movedFloor(const QPointF& pointer, bool constrain) const
     return floor;
 }
 
-Scene turned(const Scene& scene, int frame, const Handle& handle, double notches, bool fine)
+Scene turnedByWheel(const Scene& scene, int frame, const Handle& handle, double notches, bool fine)
 {
     Scene result = scene;
     const double steps = fine ? notches * Fine : notches;

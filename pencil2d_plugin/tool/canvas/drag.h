@@ -1,4 +1,4 @@
-// A handle that is being dragged: pointer positions in, scenes out.
+// A handle that is being dragged: turns pointer positions into scenes.
 #pragma once
 
 #include "tool/canvas/handles.h"
@@ -6,7 +6,7 @@
 namespace lampblack
 {
 
-/// What moves, from where it was when the button went down. Positions are in widget coordinates.
+/// Remembers what is dragged, as it was when the button was pressed. Positions are in widget coordinates.
 class Drag
 {
 public:
@@ -19,21 +19,22 @@ public:
         FloorPitch
     };
 
-    /// `handle` is not None and of `scene`, which is changed as it is at `frame`. With `depth` a light
-    /// changes height and a floor its pitch.
+    /// `handle` is a handle of `scene`, not None. The scene is changed at `frame`. With `depth` the drag
+    /// changes the height of a light or the pitch of a floor.
     Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& scene, int frame,
          const Handles& handles, const QTransform& canvasToWidget);
 
     Kind kind() const { return mKind; }
     const Handle& handle() const { return mHandle; }
     int gesture() const { return mGesture; }
-    QString text() const;
+    QString undoText() const;
 
-    /// `scene` with what is dragged moved to the pointer. `constrain` keeps moves level or upright on the
-    /// screen and sizes and angles round. A scene that has lost what is dragged comes back as it was.
+    /// `scene` with the dragged light or floor moved to the pointer. `constrain` keeps moves horizontal or
+    /// vertical on the screen, and rounds sizes and angles. If `scene` no longer has that light or floor, it
+    /// is returned unchanged.
     Scene moved(const Scene& scene, const QPointF& pointer, bool constrain) const;
 
-    /// `scene` with what is dragged back where it was.
+    /// `scene` with the dragged light or floor as it was before the drag.
     Scene restored(const Scene& scene) const;
 
 private:
@@ -44,18 +45,19 @@ private:
     Kind mKind = Kind::LightPlace;
     int mGesture = 0;
     QPointF mPress;
-    QPointF mCentre; ///< of the light's handle, or a point of the floor's hinge
+    QPointF mCentre; ///< centre of the light's handle, or a point of the floor's hinge
     double mUnit = 1;
     QTransform mToCanvas;
     int mFrame = 0;
     AreaLight mLight; ///< with its keys
     Floor mFloor;
-    AreaLight mShownLight; ///< as it was at the frame
+    AreaLight mShownLight; ///< as it was at mFrame, without keys
     Floor mShownFloor;
 };
 
-/// `scene` after `notches` of the wheel (away from the artist is above 0) over a handle at `frame`: a light
-/// rises, sinks through the paper and behind it; a floor pitches. `fine` makes small steps.
-Scene turned(const Scene& scene, int frame, const Handle& handle, double notches, bool fine);
+/// `scene` after the wheel was turned by `notches` (positive: away from the artist) over a handle at `frame`.
+/// It changes the height of a light, also to below the paper, or the pitch of a floor. `fine` makes small
+/// steps.
+Scene turnedByWheel(const Scene& scene, int frame, const Handle& handle, double notches, bool fine);
 
 } // namespace lampblack

@@ -11,11 +11,11 @@ namespace lampblack
 namespace
 {
 
-constexpr int DrawnAlpha = 128;
-constexpr int InkReach = 4;        // pixels that are looked at around a line
-constexpr int SameColour = 3 * 64; // sum of squares: 8 levels a channel
+constexpr int MinAlpha = 128;
+constexpr int SearchRadius = 4;            // pixels that are looked at around a line
+constexpr int MaxSquaredDistance = 3 * 64; // sum of squares: 8 levels a channel
 
-int apart(QRgb a, QRgb b)
+int squaredDistance(QRgb a, QRgb b)
 {
     const int red = qRed(a) - qRed(b);
     const int green = qGreen(a) - qGreen(b);
@@ -36,43 +36,43 @@ QString FrameColours::at(const QPointF& canvas) const
 {
     const QPointF place = mFrame.canvasToImage.map(canvas);
     const QPoint pixel(qFloor(place.x()), qFloor(place.y()));
-    if (!mFrame.image.valid(pixel) || qAlpha(mFrame.image.pixel(pixel)) < DrawnAlpha)
+    if (!mFrame.image.valid(pixel) || qAlpha(mFrame.image.pixel(pixel)) < MinAlpha)
         return {};
     const QRgb drawn = mFrame.image.pixel(pixel);
     QRgb best = drawn;
     // A pixel of a swatch's own colour close by says more than the nearest colour to ink.
-    int nearest = std::numeric_limits<int>::max();
-    for (int dy = -InkReach; dy <= InkReach; ++dy)
+    int nearestPixel = std::numeric_limits<int>::max();
+    for (int dy = -SearchRadius; dy <= SearchRadius; ++dy)
     {
-        for (int dx = -InkReach; dx <= InkReach; ++dx)
+        for (int dx = -SearchRadius; dx <= SearchRadius; ++dx)
         {
             const QPoint neighbour = pixel + QPoint(dx, dy);
-            const int away = dx * dx + dy * dy;
-            if (away >= nearest || !mFrame.image.valid(neighbour))
+            const int pixelDistance = dx * dx + dy * dy;
+            if (pixelDistance >= nearestPixel || !mFrame.image.valid(neighbour))
                 continue;
             const QRgb colour = mFrame.image.pixel(neighbour);
-            if (qAlpha(colour) < DrawnAlpha)
+            if (qAlpha(colour) < MinAlpha)
                 continue;
             for (const QRgb swatch : mSwatches)
             {
-                if (apart(colour, swatch) <= SameColour)
+                if (squaredDistance(colour, swatch) <= MaxSquaredDistance)
                 {
-                    nearest = away;
+                    nearestPixel = pixelDistance;
                     best = swatch;
                     break;
                 }
             }
         }
     }
-    if (nearest == std::numeric_limits<int>::max())
+    if (nearestPixel == std::numeric_limits<int>::max())
     {
-        int least = std::numeric_limits<int>::max();
+        int nearestColour = std::numeric_limits<int>::max();
         for (const QRgb swatch : mSwatches)
         {
-            const int off = apart(drawn, swatch);
-            if (off < least)
+            const int colourDistance = squaredDistance(drawn, swatch);
+            if (colourDistance < nearestColour)
             {
-                least = off;
+                nearestColour = colourDistance;
                 best = swatch;
             }
         }

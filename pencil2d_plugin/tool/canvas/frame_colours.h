@@ -16,8 +16,8 @@ public:
     void setSwatches(const QVector<Swatch>& swatches);
     const FrameExport& frame() const { return mFrame; }
 
-    /// "#rrggbb" of the swatch at a canvas point, or an empty string where nothing is drawn. Between
-    /// colours, and on ink, it is the nearest swatch.
+    /// The swatch at a point of the canvas as "#rrggbb", or an empty string where nothing is drawn. On ink
+    /// and between colours it is the nearest swatch.
     QString at(const QPointF& canvas) const;
 
 private:

@@ -17,8 +17,8 @@ const QColor Dark(24, 24, 28, 190);
 const QColor Light(255, 255, 255, 240);
 const QColor Hover(255, 206, 92);
 
-void strokeTwice(QPainter& painter, const QPainterPath& path, const QColor& inner, double width,
-                 bool dashed = false)
+void strokeOutlined(QPainter& painter, const QPainterPath& path, const QColor& inner, double width,
+                    bool dashed = false)
 {
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(Dark, width + 2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
@@ -80,8 +80,8 @@ void paintStem(QPainter& painter, const LightShape& light, bool selected, const 
 {
     const double way = light.behind ? 1 : -1;
     const QPointF root = light.centre + QPointF(0, way * (Handles::DiscRadius + 2));
-    strokeTwice(painter, line(root, light.grip), tint, selected ? 1.5 : 1, light.behind);
-    strokeTwice(painter, circle(light.grip, Handles::GripRadius), tint, 1.5);
+    strokeOutlined(painter, line(root, light.grip), tint, selected ? 1.5 : 1, light.behind);
+    strokeOutlined(painter, circle(light.grip, Handles::GripRadius), tint, 1.5);
     painter.setPen(Qt::NoPen);
     painter.setBrush(light.behind ? QColor(90, 90, 96) : Light);
     painter.drawEllipse(light.grip, Handles::GripRadius - 1, Handles::GripRadius - 1);
@@ -97,8 +97,8 @@ void paintLight(QPainter& painter, const LightShape& light, bool selected, Handl
     if (!selected && hovered == HandlePart::None)
         painter.setOpacity(0.6);
     if (!light.outside)
-        strokeTwice(painter, circle(light.centre, light.ring), tint(HandlePart::Size), selected ? 1.5 : 1,
-                    light.behind);
+        strokeOutlined(painter, circle(light.centre, light.ring), tint(HandlePart::Size), selected ? 1.5 : 1,
+                       light.behind);
     painter.restore();
     if (!light.outside)
         paintStem(painter, light, selected, tint(HandlePart::Height));
@@ -106,15 +106,16 @@ void paintLight(QPainter& painter, const LightShape& light, bool selected, Handl
     if (light.outside)
         paintArrow(painter, light);
     else if (!light.behind)
-        strokeTwice(painter, rays(light.centre), selected ? tint(HandlePart::Light) : light.colour, 1.5);
+        strokeOutlined(painter, rays(light.centre), selected ? tint(HandlePart::Light) : light.colour, 1.5);
     if (light.behind)
     {
-        strokeTwice(painter, circle(light.centre, Handles::DiscRadius), tint(HandlePart::Light), 5);
-        strokeTwice(painter, circle(light.centre, Handles::DiscRadius), light.colour, 3, true);
+        strokeOutlined(painter, circle(light.centre, Handles::DiscRadius), tint(HandlePart::Light), 5);
+        strokeOutlined(painter, circle(light.centre, Handles::DiscRadius), light.colour, 3, true);
         return;
     }
-    strokeTwice(painter, circle(light.centre, Handles::DiscRadius),
-                selected || hovered == HandlePart::Light ? tint(HandlePart::Light) : Light, selected ? 2 : 1);
+    strokeOutlined(painter, circle(light.centre, Handles::DiscRadius),
+                   selected || hovered == HandlePart::Light ? tint(HandlePart::Light) : Light,
+                   selected ? 2 : 1);
     painter.setPen(Qt::NoPen);
     painter.setBrush(light.colour);
     painter.drawEllipse(light.centre, Handles::DiscRadius - 1, Handles::DiscRadius - 1);
@@ -128,7 +129,7 @@ void paintPath(QPainter& painter, const LightShape& light, bool selected)
     way.addPolygon(light.path);
     painter.save();
     painter.setOpacity(selected ? 0.55 : 0.3);
-    strokeTwice(painter, way, Light, 1, true);
+    strokeOutlined(painter, way, Light, 1, true);
     painter.setPen(QPen(Dark, 1));
     for (int key = 0; key < light.path.size(); ++key)
     {
@@ -156,11 +157,11 @@ void paintFloor(QPainter& painter, const FloorShape& floor, bool hovered)
     }
     painter.save();
     painter.setOpacity(hovered ? 1 : 0.75);
-    strokeTwice(painter, line(floor.line.p1(), floor.line.p2()), tint, 1.5);
+    strokeOutlined(painter, line(floor.line.p1(), floor.line.p2()), tint, 1.5);
     painter.setBrush(QColor(0, 0, 0, 60));
     painter.setPen(Qt::NoPen);
     painter.drawPolygon(floor.patch);
-    strokeTwice(painter, patch, tint, 1);
+    strokeOutlined(painter, patch, tint, 1);
     painter.restore();
 }
 
@@ -188,19 +189,19 @@ void paintHandles(QPainter& painter, const Handles& handles, const Handle& hover
     painter.restore();
 }
 
-QRect tagBounds(const QFont& font, const QString& text, const QPointF& beside, const QSize& view)
+QRect tagBounds(const QFont& font, const QString& text, const QPointF& position, const QSize& view)
 {
     const QFontMetrics metrics(font);
     QRect box(0, 0, metrics.horizontalAdvance(text) + 14, metrics.height() + 6);
-    box.moveTopLeft(beside.toPoint() + QPoint(20, 14));
+    box.moveTopLeft(position.toPoint() + QPoint(20, 14));
     box.moveRight(qMin(box.right(), view.width() - 4));
     box.moveBottom(qMin(box.bottom(), view.height() - 4));
     return box;
 }
 
-void paintTag(QPainter& painter, const QString& text, const QPointF& beside, const QSize& view)
+void paintTag(QPainter& painter, const QString& text, const QPointF& position, const QSize& view)
 {
-    const QRect box = tagBounds(painter.font(), text, beside, view);
+    const QRect box = tagBounds(painter.font(), text, position, view);
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);

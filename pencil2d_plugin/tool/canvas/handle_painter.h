@@ -1,4 +1,4 @@
-// How the handles of lights and floor look.
+// Paints the handles of lights and floor.
 #pragma once
 
 #include "tool/canvas/handles.h"
@@ -8,13 +8,14 @@
 namespace lampblack
 {
 
-/// Paints in widget coordinates. Every stroke is light on dark, so that it shows on any drawing.
+/// Paints in widget coordinates. Every stroke is light with a dark outline, so that it is visible on any
+/// drawing.
 void paintHandles(QPainter& painter, const Handles& handles, const Handle& hovered);
 
-/// A word beside the pointer while something is dragged, kept inside `view`.
-void paintTag(QPainter& painter, const QString& text, const QPointF& beside, const QSize& view);
+/// Paint a short text beside the pointer, inside `view`.
+void paintTag(QPainter& painter, const QString& text, const QPointF& position, const QSize& view);
 
-/// The place that paintTag() takes.
-QRect tagBounds(const QFont& font, const QString& text, const QPointF& beside, const QSize& view);
+/// The rectangle that paintTag() paints.
+QRect tagBounds(const QFont& font, const QString& text, const QPointF& position, const QSize& view);
 
 } // namespace lampblack

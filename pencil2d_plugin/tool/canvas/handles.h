@@ -1,7 +1,7 @@
-// Where the handles of lights and floor stand on the canvas widget.
+// The places of the handles of lights and floor on the canvas widget.
 //
-// Everything here is in widget coordinates (logical pixels, y down). Handles keep their size on screen
-// at every zoom; only a light's ring shows its true diameter.
+// Everything here is in widget coordinates (logical pixels, y down). Handles have the same size at every
+// zoom; only a light's ring shows the light's true diameter.
 #pragma once
 
 #include "scene/scene.h"
@@ -43,22 +43,22 @@ inline bool operator!=(const Handle& a, const Handle& b)
 
 struct LightShape
 {
-    QPointF centre;       ///< kept inside the view, so that no light is out of reach
+    QPointF centre;       ///< moved into the view, so that every light can be reached
     QPointF place;        ///< where the light really is
-    QPointF grip;         ///< above the light: in front of the paper; below it: behind
+    QPointF grip;         ///< above the centre if the light is in front of the paper, otherwise below
     double ring = 0;      ///< radius
     bool behind = false;  ///< behind the paper
     bool outside = false; ///< out of view
     QColor colour;
-    QPolygonF path; ///< where it is at each of its keys, in their order
-    int key = -1;   ///< which of them is of this frame
+    QPolygonF path; ///< its places at its keys, in order
+    int key = -1;   ///< index of the key at this frame, or -1
 };
 
 struct FloorShape
 {
-    QLineF line; ///< the hinge, as far as it is in view
+    QLineF line; ///< the visible part of the hinge
     QPointF grip;
-    QPolygonF patch; ///< a square of floor as the pitch shows it
+    QPolygonF patch; ///< a square of floor in perspective, to show the pitch
 };
 
 class Handles
@@ -71,17 +71,17 @@ public:
     static constexpr double KeyRadius = 3.5; ///< of the dots on a light's path
 
     Handles() = default;
-    /// As they are at `frame`.
+    /// The handles at `frame`.
     Handles(const Scene& scene, int frame, int selected, const QTransform& canvasToWidget, const QSize& view);
 
     const QVector<LightShape>& lights() const { return mLights; }
     const std::optional<FloorShape>& floor() const { return mFloor; }
     int selected() const { return mSelected; }
 
-    /// The handle under the pointer. The ring answers for the selected light only.
+    /// The handle under the pointer. Only the selected light can be hit at its ring.
     Handle at(const QPointF& position) const;
 
-    /// What the handles paint on, as few rectangles.
+    /// The region that the handles are painted on, as a few rectangles.
     QRegion region() const;
 
 private:
@@ -90,14 +90,14 @@ private:
     int mSelected = -1;
 };
 
-/// Length of the stem of a light at height z, pixels; below 0 behind the paper. `unit` is the scene's
+/// Length in pixels of the stem of a light at height z; negative behind the paper. `unit` is the scene's
 /// default height.
 double stemOfHeight(double z, double unit);
 
-/// The other way round; the shortest stems all mean the paper itself, a detent to pass through.
+/// The inverse of stemOfHeight(). Every length below the shortest means height 0, so that it is easy to set.
 double heightOfStem(double stem, double unit);
 
-/// How many widget pixels a canvas pixel is.
+/// The size of a canvas pixel in widget pixels.
 double scaleOf(const QTransform& canvasToWidget);
 
 } // namespace lampblack

@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr int CompareKey = Qt::Key_D;
-constexpr double FarNudge = 10;
+constexpr double LargeStep = 10;
 
 bool isArrow(int key)
 {
@@ -58,7 +58,7 @@ bool KeyInput::eventFilter(QObject* watched, QEvent* event)
         setComparing(false); // the key may be released elsewhere
     if (type != QEvent::ShortcutOverride && type != QEvent::KeyPress && type != QEvent::KeyRelease)
         return false;
-    if (!watched->isWidgetType()) // a window passes it to its widgets
+    if (!watched->isWidgetType()) // a QWindow passes the event on to its widgets
         return false;
     const auto& key = static_cast<QKeyEvent&>(*event);
     if (type == QEvent::KeyRelease)
@@ -72,18 +72,18 @@ bool KeyInput::eventFilter(QObject* watched, QEvent* event)
     if (!isOurs(key))
         return false;
     event->accept();
-    return type == QEvent::ShortcutOverride || press(key);
+    return type == QEvent::ShortcutOverride || handleKey(key);
 }
 
 bool KeyInput::isOurs(const QKeyEvent& key) const
 {
     if (QApplication::activePopupWidget() || QApplication::activeModalWidget())
         return false;
-    // Text that somebody else lets the artist type has its own undo.
+    // Other text fields have an undo of their own.
     QWidget* focus = QApplication::focusWidget();
-    const bool isForeignText = (qobject_cast<QLineEdit*>(focus) || qobject_cast<QTextEdit*>(focus)) &&
-                               !focus->property("lampblack.value").toBool();
-    if (!isForeignText && mHost.can(Host::Ability::Undo))
+    const bool isOtherText = (qobject_cast<QLineEdit*>(focus) || qobject_cast<QTextEdit*>(focus)) &&
+                             !focus->property("lampblack.value").toBool();
+    if (!isOtherText && mHost.can(Host::Ability::Undo))
     {
         const QUndoStack& stack = *mDocument.undoStack();
         if (key.matches(QKeySequence::Undo))
@@ -104,7 +104,7 @@ bool KeyInput::isOurs(const QKeyEvent& key) const
            (isArrow(key.key()) && !(modifiers & ~Qt::ShiftModifier));
 }
 
-bool KeyInput::press(const QKeyEvent& key)
+bool KeyInput::handleKey(const QKeyEvent& key)
 {
     if (key.matches(QKeySequence::Undo) || key.matches(QKeySequence::Redo))
     {
@@ -147,11 +147,11 @@ void KeyInput::nudge(const QKeyEvent& key)
     const int selected = mDocument.selectedLight();
     if (selected >= scene.lights.size() || !mOverlay.canvasToWidget())
         return;
-    const double step = key.modifiers().testFlag(Qt::ShiftModifier) ? FarNudge : 1;
+    const double step = key.modifiers().testFlag(Qt::ShiftModifier) ? LargeStep : 1;
     QPointF by;
     by.setX(key.key() == Qt::Key_Left ? -step : key.key() == Qt::Key_Right ? step : 0);
     by.setY(key.key() == Qt::Key_Up ? -step : key.key() == Qt::Key_Down ? step : 0);
-    // Left is left on the screen, however the canvas is turned; a step is a canvas pixel at every zoom.
+    // The direction is that on the screen, however the canvas is turned; the length is in canvas pixels.
     const QTransform toCanvas = mOverlay.canvasToWidget()->inverted();
     by = (toCanvas.map(by) - toCanvas.map(QPointF())) / scaleOf(toCanvas);
     const int frame = mHost.currentFrame();
@@ -159,7 +159,8 @@ void KeyInput::nudge(const QKeyEvent& key)
     light.x += by.x();
     light.y += by.y();
     scene.lights[selected] = changedAt(scene.lights[selected], frame, light);
-    mDocument.edit(tr("Nudge Light"), scene, mNudgeRun.of(QStringLiteral("%1 %2").arg(selected).arg(frame)));
+    mDocument.edit(tr("Nudge Light"), scene,
+                   mNudgeGestures.gestureFor(QStringLiteral("%1 %2").arg(selected).arg(frame)));
 }
 
 void KeyInput::setComparing(bool comparing)

@@ -1,4 +1,4 @@
-// Keys while the lamp is in use.
+// Keyboard input while the lamp is in use.
 #pragma once
 
 #include "host/host.h"
@@ -12,9 +12,9 @@
 namespace lampblack
 {
 
-/// Undo and redo go to the scene first, from wherever the focus is. With the focus on the canvas,
-/// arrows nudge the selected light, Delete removes it, Escape takes a drag back, and holding D shows
-/// the drawing as drawn. Watches the application only while it listens.
+/// Undo and redo change the scene first, wherever the focus is. With the focus on the canvas, arrow keys
+/// nudge the selected light, Delete removes it, Escape cancels a drag, and holding D shows the drawing as
+/// drawn. It is an event filter of the application while it listens.
 class KeyInput : public QObject
 {
     Q_OBJECT
@@ -33,7 +33,7 @@ protected:
 
 private:
     bool isOurs(const QKeyEvent& key) const;
-    bool press(const QKeyEvent& key);
+    bool handleKey(const QKeyEvent& key);
     bool focusIsOnCanvas() const;
     void nudge(const QKeyEvent& key);
     void setComparing(bool comparing);
@@ -42,7 +42,7 @@ private:
     SceneDocument& mDocument;
     CanvasOverlay& mOverlay;
     CanvasInput& mInput;
-    GestureRun mNudgeRun;
+    GestureSequence mNudgeGestures;
     bool mListening = false;
     bool mComparing = false;
 };

@@ -24,19 +24,19 @@ LampMenu::LampMenu(Host& host, SceneDocument& document, QWidget* parent)
 void LampMenu::openAt(const QPointF& canvas, const QPoint& global, const Handle& handle,
                       const QString& colour)
 {
-    fill(canvas, handle, colour);
+    fillMenu(canvas, handle, colour);
     popup(global);
 }
 
-QAction* LampMenu::add(const char* name, const QString& text, const std::function<void()>& act)
+QAction* LampMenu::addEntry(const char* name, const QString& text, const std::function<void()>& onTriggered)
 {
     QAction* action = addAction(text);
     action->setObjectName(QStringLiteral("lampblack.menu.") + QLatin1String(name));
-    connect(action, &QAction::triggered, this, [act] { act(); });
+    connect(action, &QAction::triggered, this, [onTriggered] { onTriggered(); });
     return action;
 }
 
-void LampMenu::fill(const QPointF& canvas, const Handle& handle, const QString& colour)
+void LampMenu::fillMenu(const QPointF& canvas, const Handle& handle, const QString& colour)
 {
     clear();
     fillLight(canvas, handle.light);
@@ -45,68 +45,68 @@ void LampMenu::fill(const QPointF& canvas, const Handle& handle, const QString& 
     if (!colour.isEmpty())
         fillMaterial(colour);
     addSeparator();
-    add("reset", tr("Reset Lighting"),
-        [this] { mDocument.edit(tr("Reset Lighting"), withLightingReset(mDocument.scene())); });
+    addEntry("reset", tr("Reset Lighting"),
+             [this] { mDocument.edit(tr("Reset Lighting"), withLightingReset(mDocument.scene())); });
 }
 
 void LampMenu::fillLight(const QPointF& canvas, int light)
 {
-    const Scene& scene = mDocument.scene();
-    QAction* addLight = add("add_light", tr("Add a Light Here"),
-                            [this, canvas]
-                            {
-                                Scene lit = mDocument.scene();
-                                lit.lights << defaultLight(lit.canvas, canvas.x(), canvas.y());
-                                mDocument.edit(tr("Add Light"), lit);
-                                mDocument.selectLight(mDocument.scene().lights.size() - 1);
-                            });
-    addLight->setEnabled(scene.lights.size() < MaxLights);
+    const QVector<AreaLight>& lights = mDocument.scene().lights;
+    QAction* addLight = addEntry("add_light", tr("Add a Light Here"),
+                                 [this, canvas]
+                                 {
+                                     Scene scene = mDocument.scene();
+                                     scene.lights << defaultLight(scene.canvas, canvas.x(), canvas.y());
+                                     mDocument.edit(tr("Add Light"), scene);
+                                     mDocument.selectLight(mDocument.scene().lights.size() - 1);
+                                 });
+    addLight->setEnabled(lights.size() < MaxLights);
     if (!addLight->isEnabled())
         addLight->setText(tr("Add a Light Here (%1 at most)").arg(MaxLights));
-    if (light < 0 || light >= scene.lights.size())
+    if (light < 0 || light >= lights.size())
         return;
-    add("delete_light", tr("Delete Light %1").arg(light + 1),
-        [this, light] { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), light)); });
-    fillKeys<AreaLight>(scene.lights[light],
+    addEntry("delete_light", tr("Delete Light %1").arg(light + 1),
+             [this, light] { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), light)); });
+    fillKeys<AreaLight>(lights[light],
                         [this, light](const QString& text, const AreaLight& changed)
                         {
-                            Scene keyed = mDocument.scene();
-                            keyed.lights[light] = changed;
-                            mDocument.edit(text, keyed);
+                            Scene scene = mDocument.scene();
+                            scene.lights[light] = changed;
+                            mDocument.edit(text, scene);
                         });
 }
 
 void LampMenu::fillFloor(const QPointF& canvas, bool isUnderPointer)
 {
     const std::optional<Floor>& floor = mDocument.scene().floor;
-    add("floor", floor ? tr("Move the Floor Here") : tr("Put a Floor Here"),
-        [this, canvas]
-        {
-            Scene floored = mDocument.scene();
-            const int frame = mHost.currentFrame();
-            const Floor before = floored.floor.value_or(Floor());
-            Floor moved = floorAt(before, frame);
-            moved.y = canvas.y();
-            floored.floor = changedAt(before, frame, moved);
-            mDocument.edit(tr("Place Floor"), floored);
-        });
+    addEntry("floor", floor ? tr("Move the Floor Here") : tr("Put a Floor Here"),
+             [this, canvas]
+             {
+                 Scene scene = mDocument.scene();
+                 const int frame = mHost.currentFrame();
+                 const Floor before = scene.floor.value_or(Floor());
+                 Floor moved = floorAt(before, frame);
+                 moved.y = canvas.y();
+                 scene.floor = changedAt(before, frame, moved);
+                 mDocument.edit(tr("Place Floor"), scene);
+             });
     if (!floor)
         return;
-    add("remove_floor", tr("Remove the Floor"),
-        [this]
-        {
-            Scene bare = mDocument.scene();
-            bare.floor.reset();
-            mDocument.edit(tr("Remove Floor"), bare);
-        });
+    addEntry("remove_floor", tr("Remove the Floor"),
+             [this]
+             {
+                 Scene scene = mDocument.scene();
+                 scene.floor.reset();
+                 mDocument.edit(tr("Remove Floor"), scene);
+             });
     if (!isUnderPointer)
         return;
     fillKeys<Floor>(*floor,
                     [this](const QString& text, const Floor& changed)
                     {
-                        Scene keyed = mDocument.scene();
-                        keyed.floor = changed;
-                        mDocument.edit(text, keyed);
+                        Scene scene = mDocument.scene();
+                        scene.floor = changed;
+                        mDocument.edit(text, scene);
                     });
 }
 
@@ -115,15 +115,15 @@ void LampMenu::fillKeys(const Thing& thing, const std::function<void(const QStri
 {
     const int frame = mHost.currentFrame();
     if (keyFrames(thing).contains(frame))
-        add("remove_key", tr("Remove Key Here (Frame %1)").arg(frame),
-            [=] { change(tr("Remove Key"), withoutKey(thing, frame)); });
+        addEntry("remove_key", tr("Remove Key Here (Frame %1)").arg(frame),
+                 [=] { change(tr("Remove Key"), withoutKey(thing, frame)); });
     else
-        add("add_key", tr("Add Key Here (Frame %1)").arg(frame),
-            [=] { change(tr("Add Key"), withKey(thing, frame)); })
+        addEntry("add_key", tr("Add Key Here (Frame %1)").arg(frame),
+                 [=] { change(tr("Add Key"), withKey(thing, frame)); })
             ->setEnabled(thing.keys.size() < MaxKeys);
     if (!thing.keys.isEmpty())
-        add("remove_keys", tr("Remove All Keys"),
-            [=] { change(tr("Remove All Keys"), withoutKeys(thing, frame)); });
+        addEntry("remove_keys", tr("Remove All Keys"),
+                 [=] { change(tr("Remove All Keys"), withoutKeys(thing, frame)); });
 }
 
 void LampMenu::fillMaterial(const QString& colour)
@@ -135,20 +135,20 @@ void LampMenu::fillMaterial(const QString& colour)
     const Material material = mDocument.scene().material(colour);
     const auto tick = [this, colour](const char* name, const QString& text, bool on, bool Material::*field)
     {
-        QAction* action =
-            add(name, text,
-                [this, colour, on, field]
-                {
-                    Material changed = mDocument.scene().material(colour);
-                    changed.*field = !on;
-                    mDocument.edit(tr("Change Material"), withMaterial(mDocument.scene(), colour, changed));
-                });
+        QAction* action = addEntry(name, text,
+                                   [this, colour, on, field]
+                                   {
+                                       Material changed = mDocument.scene().material(colour);
+                                       changed.*field = !on;
+                                       mDocument.edit(tr("Change Material"),
+                                                      withMaterial(mDocument.scene(), colour, changed));
+                                   });
         action->setCheckable(true);
         action->setChecked(on);
     };
     tick("diffuse", tr("Diffuse"), material.diffuse, &Material::diffuse);
     tick("glossy", tr("Glossy"), material.glossy, &Material::glossy);
-    add("materials", tr("Edit in Materials…"), [this, colour] { Q_EMIT editMaterialRequested(colour); });
+    addEntry("materials", tr("Edit in Materials…"), [this, colour] { Q_EMIT editMaterialRequested(colour); });
 }
 
 Scene withLightingReset(Scene scene)
@@ -172,7 +172,7 @@ QIcon colourIcon(const QColor& colour, int side, double pixelRatio)
     painter.drawRoundedRect(QRectF(0.5, 0.5, side - 1, side - 1), 2, 2);
     painter.end();
     QIcon icon(pixmap);
-    icon.addPixmap(pixmap, QIcon::Disabled); // a colour is shown true, whatever can be done with it
+    icon.addPixmap(pixmap, QIcon::Disabled); // Qt would grey it
     return icon;
 }
 

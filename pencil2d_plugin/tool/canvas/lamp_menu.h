@@ -1,4 +1,4 @@
-// The menu under the right button.
+// The context menu of the canvas.
 #pragma once
 
 #include "host/host.h"
@@ -11,7 +11,7 @@
 namespace lampblack
 {
 
-/// What can be done at a place of the canvas. Rebuilt each time that it opens.
+/// Rebuilt each time it opens.
 class LampMenu : public QMenu
 {
     Q_OBJECT
@@ -19,30 +19,30 @@ class LampMenu : public QMenu
 public:
     LampMenu(Host& host, SceneDocument& document, QWidget* parent);
 
-    /// `canvas` is the place in canvas pixels; `handle` what is there; `colour` the flat colour there,
-    /// "#rrggbb" or empty.
+    /// `canvas` is the position in canvas pixels, `handle` the handle and `colour` the flat colour there
+    /// ("#rrggbb" or empty).
     void openAt(const QPointF& canvas, const QPoint& global, const Handle& handle, const QString& colour);
 
 Q_SIGNALS:
     void editMaterialRequested(const QString& colour);
 
 private:
-    void fill(const QPointF& canvas, const Handle& handle, const QString& colour);
+    void fillMenu(const QPointF& canvas, const Handle& handle, const QString& colour);
     void fillLight(const QPointF& canvas, int light);
     void fillFloor(const QPointF& canvas, bool isUnderPointer);
     template <class Thing>
     void fillKeys(const Thing& thing, const std::function<void(const QString&, const Thing&)>& change);
     void fillMaterial(const QString& colour);
-    QAction* add(const char* name, const QString& text, const std::function<void()>& act);
+    QAction* addEntry(const char* name, const QString& text, const std::function<void()>& onTriggered);
 
     Host& mHost;
     SceneDocument& mDocument;
 };
 
-/// `scene` with its lights, ambient light and floor as a new project has them.
+/// `scene` with the lights, ambient light and floor of a new project.
 Scene withLightingReset(Scene scene);
 
-/// A square of a colour with a thin edge, for menus and buttons.
+/// A square of this colour with a thin border, for menus and buttons.
 QIcon colourIcon(const QColor& colour, int side, double pixelRatio);
 
 } // namespace lampblack

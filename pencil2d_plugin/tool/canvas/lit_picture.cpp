@@ -3,14 +3,14 @@
 namespace lampblack
 {
 
-void LitPicture::setPicture(const LookImage& look, const QTransform& canvasToImage)
+void LitPicture::setPicture(const PreviewImage& image, const QTransform& canvasToImage)
 {
-    mLook = look;
+    mImage = image;
     mCanvasToImage = canvasToImage;
     mCache = QPixmap();
 }
 
-void LitPicture::setSurroundings(const FrameExport& below, const FrameExport& above)
+void LitPicture::setUnlitLayers(const FrameExport& below, const FrameExport& above)
 {
     const auto isSame = [](const FrameExport& one, const FrameExport& other)
     {
@@ -25,7 +25,7 @@ void LitPicture::setSurroundings(const FrameExport& below, const FrameExport& ab
 
 void LitPicture::clear()
 {
-    mLook = LookImage();
+    mImage = PreviewImage();
     mCache = QPixmap();
 }
 
@@ -34,7 +34,7 @@ QRect LitPicture::bounds(const QTransform& canvasToWidget) const
     if (isEmpty())
         return {};
     return (mCanvasToImage.inverted() * canvasToWidget)
-        .mapRect(mLook.crop)
+        .mapRect(mImage.crop)
         .adjusted(-1, -1, 1, 1)
         .toAlignedRect();
 }
@@ -42,46 +42,46 @@ QRect LitPicture::bounds(const QTransform& canvasToWidget) const
 void LitPicture::paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view,
                        double pixelRatio, const QColor& paper)
 {
-    const QRect area = bounds(canvasToWidget).intersected(QRect(QPoint(), view));
-    if (area.isEmpty())
+    const QRect covered = bounds(canvasToWidget).intersected(QRect(QPoint(), view));
+    if (covered.isEmpty())
         return;
     if (mCache.isNull() || mCacheTransform != canvasToWidget || mCacheView != view || mCachePaper != paper ||
         !qFuzzyCompare(mCache.devicePixelRatio(), pixelRatio))
     {
-        QPixmap cache((QSizeF(area.size()) * pixelRatio).toSize());
+        QPixmap cache((QSizeF(covered.size()) * pixelRatio).toSize());
         cache.setDevicePixelRatio(pixelRatio);
         cache.fill(Qt::transparent);
         QPainter into(&cache);
-        into.translate(-area.topLeft());
+        into.translate(-covered.topLeft());
         draw(into, canvasToWidget, paper);
         into.end();
         mCache = cache;
-        mCacheAt = area.topLeft();
+        mCachePosition = covered.topLeft();
         mCacheTransform = canvasToWidget;
         mCacheView = view;
         mCachePaper = paper;
     }
-    painter.drawPixmap(mCacheAt, mCache);
+    painter.drawPixmap(mCachePosition, mCache);
 }
 
 void LitPicture::draw(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const
 {
     painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
     painter.setTransform(mCanvasToImage.inverted() * canvasToWidget, true);
-    painter.fillRect(mLook.crop, paper);
-    drawUnlit(painter, mBelow);
-    painter.drawImage(mLook.crop, mLook.picture, QRectF(mLook.picture.rect()));
-    drawUnlit(painter, mAbove);
+    painter.fillRect(mImage.crop, paper);
+    drawLayers(painter, mBelow);
+    painter.drawImage(mImage.crop, mImage.picture, QRectF(mImage.picture.rect()));
+    drawLayers(painter, mAbove);
 }
 
-void LitPicture::drawUnlit(QPainter& painter, const FrameExport& plate) const
+void LitPicture::drawLayers(QPainter& painter, const FrameExport& layers) const
 {
-    if (plate.image.isNull())
+    if (layers.image.isNull())
         return;
     painter.save();
-    painter.setClipRect(mLook.crop);
-    painter.setTransform(plate.canvasToImage.inverted() * mCanvasToImage, true);
-    painter.drawImage(QPointF(), plate.image);
+    painter.setClipRect(mImage.crop);
+    painter.setTransform(layers.canvasToImage.inverted() * mCanvasToImage, true);
+    painter.drawImage(QPointF(), layers.image);
     painter.restore();
 }
 

@@ -1,4 +1,4 @@
-// The lit picture on its paper, registered to the drawing.
+// The lit picture on its paper, aligned with the drawing.
 #pragma once
 
 #include "host/host.h"
@@ -10,19 +10,19 @@
 namespace lampblack
 {
 
-/// Kept as a pixmap of the screen's own pixels, so that a repaint costs a blit.
+/// Cached as a pixmap at screen resolution, so that repainting is fast.
 class LitPicture
 {
 public:
     /// `canvasToImage` is the camera of the frame: the picture's crop is in the frame's own pixels.
-    void setPicture(const LookImage& look, const QTransform& canvasToImage);
-    /// What lies under and over what is lit: the layers that are not. Null images for none.
-    void setSurroundings(const FrameExport& below, const FrameExport& above);
+    void setPicture(const PreviewImage& image, const QTransform& canvasToImage);
+    /// The unlit layers under and over the lit ones; null images for none.
+    void setUnlitLayers(const FrameExport& below, const FrameExport& above);
     void clear();
-    bool isEmpty() const { return mLook.picture.isNull(); }
-    const LookImage& look() const { return mLook; }
+    bool isEmpty() const { return mImage.picture.isNull(); }
+    const PreviewImage& image() const { return mImage; }
 
-    /// Widget pixels that it covers.
+    /// The widget pixels that the picture covers.
     QRect bounds(const QTransform& canvasToWidget) const;
 
     void paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view, double pixelRatio,
@@ -30,15 +30,15 @@ public:
 
 private:
     void draw(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const;
-    void drawUnlit(QPainter& painter, const FrameExport& plate) const;
+    void drawLayers(QPainter& painter, const FrameExport& layers) const;
 
-    LookImage mLook;
+    PreviewImage mImage;
     QTransform mCanvasToImage;
     FrameExport mBelow;
     FrameExport mAbove;
 
     QPixmap mCache;
-    QPoint mCacheAt; ///< widget pixels
+    QPoint mCachePosition; ///< widget pixels
     QTransform mCacheTransform;
     QSize mCacheView;
     QColor mCachePaper;

@@ -1,4 +1,4 @@
-// Changes of what flat colours wear.
+// Changes of the materials of flat colours.
 #pragma once
 
 #include "scene/scene.h"
@@ -6,11 +6,11 @@
 namespace lampblack
 {
 
-/// `scene` with the flat colour "#rrggbb" wearing `material`. A colour that wears the default is not
-/// listed, so that it follows the default.
+/// `scene` with `material` for the flat colour "#rrggbb". A colour with the default material is not stored,
+/// so that it follows later changes of the default.
 Scene withMaterial(Scene scene, const QString& colour, const Material& material);
 
-/// `scene` with another roughness for every colour that was not given one of its own.
+/// `scene` with another roughness for every colour that has the default roughness.
 Scene withRoughness(Scene scene, double roughness);
 
 } // namespace lampblack

@@ -9,14 +9,15 @@ namespace lampblack
 
 namespace
 {
-constexpr int MostElsewhere = 256; // rows; the scene may hold thousands
-constexpr int LeastLines = 8;      // of text: a few colours in sight
+constexpr int MaxOtherRows = 256; // rows; the scene may hold thousands
+constexpr int MinLines = 8;       // of text: a few colours in sight
 } // namespace
 
 MaterialsDock::MaterialsDock(SceneDocument& document)
-    : QDockWidget(tr("Materials")), mDocument(document), mPick(new QToolButton), mEmpty(new QLabel),
-      mScroll(new QScrollArea), mInFrame(new QVBoxLayout),
-      mElsewhere(new Section(QStringLiteral("lampblack.materials.elsewhere"), tr("Not in this frame"), false))
+    : QDockWidget(tr("Materials")), mDocument(document), mPick(new QToolButton), mEmptyLabel(new QLabel),
+      mScroll(new QScrollArea), mFrameRows(new QVBoxLayout),
+      mOtherSection(
+          new Section(QStringLiteral("lampblack.materials.elsewhere"), tr("Not in this frame"), false))
 {
     setObjectName(QStringLiteral("lampblack.materials"));
     mPick->setObjectName(QStringLiteral("lampblack.materials.pick"));
@@ -41,35 +42,36 @@ MaterialsDock::MaterialsDock(SceneDocument& document)
         label->setFixedWidth(mColumnWidth);
         heading->addWidget(label);
     }
-    mEmpty->setObjectName(QStringLiteral("lampblack.materials.empty"));
-    mEmpty->setText(tr("The colours of the drawing appear here once it has been looked at with the Lamp."));
-    mEmpty->setWordWrap(true);
-    mEmpty->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    mEmpty->setMargin(6);
-    mInFrame->setSpacing(0);
-    mElsewhere->body()->setContentsMargins(0, 0, 0, 0);
-    mElsewhere->body()->setSpacing(0);
+    mEmptyLabel->setObjectName(QStringLiteral("lampblack.materials.empty"));
+    mEmptyLabel->setText(
+        tr("The colours of the drawing appear here once it has been looked at with the Lamp."));
+    mEmptyLabel->setWordWrap(true);
+    mEmptyLabel->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    mEmptyLabel->setMargin(6);
+    mFrameRows->setSpacing(0);
+    mOtherSection->body()->setContentsMargins(0, 0, 0, 0);
+    mOtherSection->body()->setSpacing(0);
 
     auto* rows = new QWidget;
     auto* column = new QVBoxLayout(rows);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
     column->addLayout(heading);
-    column->addWidget(mEmpty);
-    column->addLayout(mInFrame);
-    column->addWidget(mElsewhere);
+    column->addWidget(mEmptyLabel);
+    column->addLayout(mFrameRows);
+    column->addWidget(mOtherSection);
     column->addStretch(1);
     mScroll->setFrameShape(QFrame::NoFrame);
     mScroll->setWidgetResizable(true);
     mScroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     mScroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
     mScroll->setWidget(rows);
-    mScroll->setMinimumHeight(fontMetrics().height() * LeastLines);
+    mScroll->setMinimumHeight(fontMetrics().height() * MinLines);
     setWidget(mScroll);
 
     connect(mPick, &QToolButton::clicked, this, &MaterialsDock::pickRequested);
     connect(&document, &SceneDocument::sceneChanged, this, &MaterialsDock::refresh);
-    arrange();
+    updateRows();
 }
 
 void MaterialsDock::setPalette(const QVector<Swatch>& swatches)
@@ -80,7 +82,7 @@ void MaterialsDock::setPalette(const QVector<Swatch>& swatches)
     if (palette == mPalette)
         return;
     mPalette = palette;
-    arrange();
+    updateRows();
 }
 
 void MaterialsDock::setHighlighted(const QString& colour)
@@ -94,12 +96,12 @@ void MaterialsDock::setHighlighted(const QString& colour)
         now->setHighlighted(true);
 }
 
-void MaterialsDock::reveal(const QString& colour)
+void MaterialsDock::revealColour(const QString& colour)
 {
     show();
     raise();
-    if (mOthers.contains(colour))
-        mElsewhere->setOpen(true);
+    if (mOtherColours.contains(colour))
+        mOtherSection->setOpen(true);
     setHighlighted(colour);
     if (SwatchRow* found = mRows.value(colour))
     {
@@ -110,17 +112,17 @@ void MaterialsDock::reveal(const QString& colour)
 
 void MaterialsDock::refresh()
 {
-    if (elsewhere() != mOthers)
-        arrange();
+    if (otherColours() != mOtherColours)
+        updateRows();
     for (SwatchRow* each : qAsConst(mRows))
         each->setMaterial(mDocument.scene().material(each->colour()));
 }
 
-QVector<QString> MaterialsDock::elsewhere() const
+QVector<QString> MaterialsDock::otherColours() const
 {
     QVector<QString> colours;
     const QMap<QString, Material>& materials = mDocument.scene().materials;
-    for (auto material = materials.begin(); material != materials.end() && colours.size() < MostElsewhere;
+    for (auto material = materials.begin(); material != materials.end() && colours.size() < MaxOtherRows;
          ++material)
     {
         if (!mPalette.contains(material.key()))
@@ -129,12 +131,12 @@ QVector<QString> MaterialsDock::elsewhere() const
     return colours;
 }
 
-void MaterialsDock::arrange()
+void MaterialsDock::updateRows()
 {
-    mOthers = elsewhere();
+    mOtherColours = otherColours();
     for (auto each = mRows.begin(); each != mRows.end();)
     {
-        if (mPalette.contains(each.key()) || mOthers.contains(each.key()))
+        if (mPalette.contains(each.key()) || mOtherColours.contains(each.key()))
         {
             ++each;
             continue;
@@ -144,15 +146,15 @@ void MaterialsDock::arrange()
         each = mRows.erase(each);
     }
     for (int place = 0; place < mPalette.size(); ++place)
-        mInFrame->insertWidget(place, row(mPalette[place]));
-    for (int place = 0; place < mOthers.size(); ++place)
-        mElsewhere->body()->insertWidget(place, row(mOthers[place]));
-    mEmpty->setVisible(mPalette.isEmpty());
-    mElsewhere->setVisible(!mOthers.isEmpty());
-    mElsewhere->setTitle(tr("Not in this frame (%1)").arg(mOthers.size()));
+        mFrameRows->insertWidget(place, rowFor(mPalette[place]));
+    for (int place = 0; place < mOtherColours.size(); ++place)
+        mOtherSection->body()->insertWidget(place, rowFor(mOtherColours[place]));
+    mEmptyLabel->setVisible(mPalette.isEmpty());
+    mOtherSection->setVisible(!mOtherColours.isEmpty());
+    mOtherSection->setTitle(tr("Not in this frame (%1)").arg(mOtherColours.size()));
 }
 
-SwatchRow* MaterialsDock::row(const QString& colour)
+SwatchRow* MaterialsDock::rowFor(const QString& colour)
 {
     SwatchRow*& found = mRows[colour];
     if (found == nullptr)

@@ -1,4 +1,4 @@
-// The dock of flat colours and what each wears.
+// The dock with the materials of the flat colours.
 #pragma once
 
 #include "scene/scene_document.h"
@@ -13,8 +13,8 @@
 namespace lampblack
 {
 
-/// Colours of the frame in sight, most used first; below, folded, colours that have a material but are
-/// not in it.
+/// Lists the colours of the current frame, most used first. A folded section below lists other colours that
+/// have a material.
 class MaterialsDock : public QDockWidget
 {
     Q_OBJECT
@@ -23,10 +23,10 @@ public:
     explicit MaterialsDock(SceneDocument& document);
 
     void setPalette(const QVector<Swatch>& swatches);
-    /// Mark the colour under the pointer; empty for none.
+    /// Mark the row of a colour; empty for none.
     void setHighlighted(const QString& colour);
-    /// Bring the dock and the row of a colour into sight and mark it.
-    void reveal(const QString& colour);
+    /// Show the dock, scroll to the row of a colour and mark it.
+    void revealColour(const QString& colour);
     void setPicking(bool picking) { mPick->setChecked(picking); }
 
 Q_SIGNALS:
@@ -34,21 +34,21 @@ Q_SIGNALS:
 
 private:
     void refresh();
-    void arrange();
-    QVector<QString> elsewhere() const;
-    SwatchRow* row(const QString& colour);
+    void updateRows();
+    QVector<QString> otherColours() const;
+    SwatchRow* rowFor(const QString& colour);
 
     SceneDocument& mDocument;
     QVector<QString> mPalette;
-    QVector<QString> mOthers;
+    QVector<QString> mOtherColours;
     QMap<QString, SwatchRow*> mRows;
     QString mHighlighted;
-    int mColumnWidth = 0; ///< of the boxes
+    int mColumnWidth = 0; ///< width of the columns of check boxes
     QToolButton* mPick;
-    QLabel* mEmpty;
+    QLabel* mEmptyLabel;
     QScrollArea* mScroll;
-    QVBoxLayout* mInFrame;
-    Section* mElsewhere;
+    QVBoxLayout* mFrameRows;
+    Section* mOtherSection;
 };
 
 } // namespace lampblack

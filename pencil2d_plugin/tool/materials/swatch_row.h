@@ -1,4 +1,4 @@
-// One flat colour and what it wears.
+// One flat colour and its material.
 #pragma once
 
 #include "scene/scene.h"
@@ -15,11 +15,11 @@ class SwatchRow : public QWidget
     Q_OBJECT
 
 public:
-    /// The two boxes stand in the middle of columns of `columnWidth`.
+    /// Each of the two check boxes is centred in a column of `columnWidth`.
     SwatchRow(const QString& colour, int columnWidth, QWidget* parent = nullptr);
 
     const QString& colour() const { return mColour; }
-    /// Show a material; tells nobody.
+    /// Show a material; does not emit edited().
     void setMaterial(const Material& material);
     void setHighlighted(bool highlighted);
 
@@ -38,7 +38,7 @@ private:
     QWidget* mSwatch;
     QCheckBox* mDiffuse;
     QCheckBox* mGlossy;
-    ValueRow* mGloss = nullptr; ///< made once the colour is glossy: a drawing may have 256 colours
+    ValueRow* mGloss = nullptr; ///< created when needed, because a drawing may have 256 colours
     ValueRow* mRoughness = nullptr;
 };
 

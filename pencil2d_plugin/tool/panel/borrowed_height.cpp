@@ -26,7 +26,7 @@ QMainWindow* windowOf(const QDockWidget* dock)
     return dock == nullptr || dock->isFloating() ? nullptr : qobject_cast<QMainWindow*>(dock->parentWidget());
 }
 
-/// The docks at the sides of the window, from below.
+/// The docks at the sides of the window, the lowest first.
 QList<QDockWidget*> docksBeside(const QMainWindow& window)
 {
     QList<QDockWidget*> beside;
@@ -51,35 +51,36 @@ bool isBelow(const QDockWidget& dock, const QDockWidget& other)
 
 } // namespace
 
-void BorrowedHeight::borrow(const QWidget& page, int wanted)
+void BorrowedHeight::borrow(const QWidget& page, int height)
 {
     mNeighbours.clear();
     mDock = dockAround(page);
     QMainWindow* window = windowOf(mDock);
     if (window == nullptr)
         return;
-    // Those on the other side are told to stay: a dock that is not spoken of may be moved.
-    const int asked = std::max(mDock->height(), mLast > 0 ? mLast : std::min(wanted, window->height() / 2));
-    int missing = asked - mDock->height();
+    // The docks of the other side are set too: Qt may change the height of a dock that is left out.
+    const int target =
+        std::max(mDock->height(), mLastHeight > 0 ? mLastHeight : std::min(height, window->height() / 2));
+    int needed = target - mDock->height();
     const QList<QDockWidget*> docks = docksBeside(*window);
-    const int own = docks.indexOf(mDock);
-    if (own < 0)
-        return; // along the top or bottom edge
+    const int index = docks.indexOf(mDock);
+    if (index < 0)
+        return; // it is at the top or bottom edge
     for (QDockWidget* dock : docks)
     {
         const int spare = std::max(0, dock->height() - dock->minimumSizeHint().height());
-        const int lent = isBelow(*dock, *mDock) ? std::min(missing, spare) : 0;
-        missing -= lent;
-        mNeighbours << Neighbour{dock, dock->height(), dock->height() - lent};
+        const int given = isBelow(*dock, *mDock) ? std::min(needed, spare) : 0;
+        needed -= given;
+        mNeighbours << Neighbour{dock, dock->height(), dock->height() - given};
     }
-    mNeighbours[own].wanted = asked - missing;
-    resize(&Neighbour::wanted);
+    mNeighbours[index].height = target - needed;
+    resize(&Neighbour::height);
 }
 
 void BorrowedHeight::giveBack()
 {
     if (mDock != nullptr && !mNeighbours.isEmpty() && !mDock->isFloating())
-        mLast = mDock->height();
+        mLastHeight = mDock->height();
     resize(&Neighbour::before);
     mNeighbours.clear();
 }
@@ -103,7 +104,7 @@ void BorrowedHeight::resize(int Neighbour::*height)
         window->resizeDocks(docks, heights, Qt::Vertical);
     };
     apply();
-    // Where several docks change at once, Qt brings them to their heights only the second time.
+    // If several docks change at once, Qt sets their heights only the second time.
     QTimer::singleShot(0, window, apply);
 }
 

@@ -1,4 +1,4 @@
-// Height that a dock takes from the docks below it for a while.
+// Gives a dock more height for a while, taken from the docks below it.
 #pragma once
 
 #include <QDockWidget>
@@ -9,14 +9,14 @@
 namespace lampblack
 {
 
-/// Other tools have few options, and their dock is low. While the lamp's panel shows, the dock grows; docks
-/// above it stay as they are, those below make room, and all have their heights back afterwards.
+/// The dock of the tool options is low, because other tools have few options. While the lamp's panel is
+/// shown, the dock is made higher. The docks below shrink, and all heights are restored afterwards.
 class BorrowedHeight
 {
 public:
     /// Grow the dock around `page` to `wanted` pixels, or to what it had when it was last given back. Half
     /// of the window is the most. Does nothing outside a docked dock.
-    void borrow(const QWidget& page, int wanted);
+    void borrow(const QWidget& page, int height);
     void giveBack();
 
 private:
@@ -24,13 +24,13 @@ private:
     {
         QPointer<QDockWidget> dock;
         int before = 0;
-        int wanted = 0;
+        int height = 0;
     };
     void resize(int Neighbour::*height);
 
     QPointer<QDockWidget> mDock;
     QVector<Neighbour> mNeighbours; ///< and the dock itself, while it borrows
-    int mLast = 0;                  ///< height that the artist left it with
+    int mLastHeight = 0;            ///< height that the artist left it with
 };
 
 } // namespace lampblack

@@ -15,7 +15,7 @@ ColourButton::ColourButton(const QString& name, const QString& label, QWidget* p
     setToolTip(label);
     setFixedSize(44, 22);
     setFocusPolicy(Qt::StrongFocus);
-    connect(this, &QToolButton::clicked, this, &ColourButton::choose);
+    connect(this, &QToolButton::clicked, this, &ColourButton::openDialog);
 }
 
 void ColourButton::setColour(const QColor& colour)
@@ -25,7 +25,7 @@ void ColourButton::setColour(const QColor& colour)
     update();
 }
 
-void ColourButton::choose()
+void ColourButton::openDialog()
 {
     if (mDialog)
     {
@@ -38,15 +38,15 @@ void ColourButton::choose()
     mDialog->setObjectName(objectName() + QStringLiteral(".dialog"));
     mDialog->setWindowTitle(accessibleName());
     mDialog->setAttribute(Qt::WA_DeleteOnClose);
-    const auto tell = [this, gesture](const QColor& colour)
+    const auto applyColour = [this, gesture](const QColor& colour)
     {
         if (!colour.isValid())
             return;
         setColour(colour);
         Q_EMIT edited(colour, gesture);
     };
-    connect(mDialog, &QColorDialog::currentColorChanged, this, tell);
-    connect(mDialog, &QColorDialog::rejected, this, [tell, before] { tell(before); });
+    connect(mDialog, &QColorDialog::currentColorChanged, this, applyColour);
+    connect(mDialog, &QColorDialog::rejected, this, [applyColour, before] { applyColour(before); });
     mDialog->show();
 }
 

@@ -1,4 +1,4 @@
-// A button that shows a colour and lets it be chosen.
+// A button that shows a colour and opens a dialog to change it.
 #pragma once
 
 #include <QColor>
@@ -9,7 +9,7 @@
 namespace lampblack
 {
 
-/// While the dialog is open every choice is told at once, as one gesture; Cancel brings the colour back.
+/// While the dialog is open, edited() is emitted for each choice, as one gesture. Cancel restores the colour.
 class ColourButton : public QToolButton
 {
     Q_OBJECT
@@ -18,7 +18,7 @@ public:
     ColourButton(const QString& name, const QString& label, QWidget* parent = nullptr);
 
     QColor colour() const { return mColour; }
-    /// Show a colour; tells nobody.
+    /// Show a colour; does not emit edited().
     void setColour(const QColor& colour);
 
 Q_SIGNALS:
@@ -28,7 +28,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void choose();
+    void openDialog();
 
     QColor mColour = Qt::white;
     QPointer<QColorDialog> mDialog;

@@ -12,7 +12,7 @@ namespace
 {
 constexpr double Margin = 5;
 constexpr double Radius = 3.5;
-constexpr double Reach = 5;
+constexpr double ClickRadius = 5;
 } // namespace
 
 KeyStrip::KeyStrip(const QString& name, QWidget* parent) : QWidget(parent)
@@ -42,7 +42,7 @@ void KeyStrip::setKeys(const QVector<int>& frames)
     update();
 }
 
-double KeyStrip::at(int frame) const
+double KeyStrip::xOf(int frame) const
 {
     return Margin + (width() - 2 * Margin) * (frame - 1) / qMax(1, mCount - 1);
 }
@@ -54,16 +54,16 @@ void KeyStrip::paintEvent(QPaintEvent*)
     painter.setOpacity(isEnabled() ? 1 : 0.4);
     const double middle = height() / 2.0;
     painter.setPen(QPen(palette().color(QPalette::Mid), 1));
-    painter.drawLine(QPointF(at(1), middle), QPointF(at(mCount), middle));
+    painter.drawLine(QPointF(xOf(1), middle), QPointF(xOf(mCount), middle));
     painter.setPen(QPen(palette().color(QPalette::Highlight), 2));
-    painter.drawLine(QPointF(at(mFrame), 1), QPointF(at(mFrame), height() - 1));
+    painter.drawLine(QPointF(xOf(mFrame), 1), QPointF(xOf(mFrame), height() - 1));
     painter.setPen(QPen(palette().color(QPalette::WindowText), 1));
     for (const int frame : mKeys)
     {
         if (frame < 1 || frame > mCount)
             continue;
         painter.setBrush(palette().color(frame == mFrame ? QPalette::Highlight : QPalette::Base));
-        painter.drawPolygon(diamond(QPointF(at(frame), middle), Radius));
+        painter.drawPolygon(diamond(QPointF(xOf(frame), middle), Radius));
     }
 }
 
@@ -73,17 +73,17 @@ void KeyStrip::mousePressEvent(QMouseEvent* event)
         return;
     const double share = (event->localPos().x() - Margin) / qMax(1.0, width() - 2 * Margin);
     int frame = qBound(1, 1 + int(std::lround(share * (mCount - 1))), mCount);
-    double nearest = Reach;
+    double nearest = ClickRadius;
     for (const int key : qAsConst(mKeys))
     {
-        const double away = std::abs(at(key) - event->localPos().x());
-        if (key >= 1 && key <= mCount && away < nearest)
+        const double distance = std::abs(xOf(key) - event->localPos().x());
+        if (key >= 1 && key <= mCount && distance < nearest)
         {
-            nearest = away;
+            nearest = distance;
             frame = key;
         }
     }
-    Q_EMIT picked(frame);
+    Q_EMIT frameClicked(frame);
 }
 
 QPolygonF diamond(const QPointF& centre, double radius)

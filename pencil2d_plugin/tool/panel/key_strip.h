@@ -1,4 +1,4 @@
-// Where on the timeline the keys are.
+// Shows the keys of a light or the floor along the animation.
 #pragma once
 
 #include <QVector>
@@ -7,8 +7,8 @@
 namespace lampblack
 {
 
-/// A line along the animation with a diamond at each key and a mark at the current frame. A click asks for
-/// the frame there, a key's if one is near.
+/// A line with a diamond at each key and a mark at the current frame. A click emits the frame there, or that
+/// of a key nearby.
 class KeyStrip : public QWidget
 {
     Q_OBJECT
@@ -24,21 +24,21 @@ public:
     QSize minimumSizeHint() const override { return {30, 16}; }
 
 Q_SIGNALS:
-    void picked(int frame);
+    void frameClicked(int frame);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
 
 private:
-    double at(int frame) const; ///< from the left, pixels
+    double xOf(int frame) const; ///< from the left, pixels
 
     int mFrame = 1;
     int mCount = 1;
     QVector<int> mKeys;
 };
 
-/// A key as people know it from timelines, around `centre`.
+/// The usual symbol of a key in timelines, around `centre`.
 QPolygonF diamond(const QPointF& centre, double radius);
 
 } // namespace lampblack

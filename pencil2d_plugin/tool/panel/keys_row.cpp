@@ -40,15 +40,15 @@ QIcon diamondIcon(bool filled, const QPalette& palette, double pixelRatio)
 
 QToolButton* button(const QString& name, QWidget* parent)
 {
-    auto* made = new QToolButton(parent);
-    made->setObjectName(name);
-    made->setAutoRaise(true);
-    made->setFocusPolicy(Qt::StrongFocus);
-    made->setIconSize(QSize(IconSide, IconSide));
-    return made;
+    auto* button = new QToolButton(parent);
+    button->setObjectName(name);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setIconSize(QSize(IconSide, IconSide));
+    return button;
 }
 
-void tell(QToolButton* button, const QString& hint)
+void setHint(QToolButton* button, const QString& hint)
 {
     button->setToolTip(hint);
     button->setAccessibleName(hint);
@@ -60,13 +60,14 @@ KeysRow::KeysRow(const QString& name, Host& host, QWidget* parent)
     : QWidget(parent), mHost(host), mLabel(new QLabel(tr("Keys"), this)),
       mStrip(new KeyStrip(name + QStringLiteral(".strip"), this)),
       mPrevious(button(name + QStringLiteral(".previous"), this)),
-      mHere(button(name + QStringLiteral(".here"), this)), mNext(button(name + QStringLiteral(".next"), this))
+      mToggle(button(name + QStringLiteral(".here"), this)),
+      mNext(button(name + QStringLiteral(".next"), this))
 {
     setObjectName(name);
     mPrevious->setArrowType(Qt::LeftArrow);
     mNext->setArrowType(Qt::RightArrow);
-    tell(mPrevious, tr("Go to the key before"));
-    tell(mNext, tr("Go to the key after"));
+    setHint(mPrevious, tr("Go to the key before"));
+    setHint(mNext, tr("Go to the key after"));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(4);
@@ -74,72 +75,72 @@ KeysRow::KeysRow(const QString& name, Host& host, QWidget* parent)
     row->addWidget(mStrip, 1);
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(0);
-    for (QToolButton* each : {mPrevious, mHere, mNext})
+    for (QToolButton* each : {mPrevious, mToggle, mNext})
         buttons->addWidget(each);
     row->addLayout(buttons);
-    align();
-    drawIcons();
-    connect(mHere, &QToolButton::clicked, this, &KeysRow::keyToggled);
-    connect(mPrevious, &QToolButton::clicked, this, [this] { mHost.goToFrame(before()); });
-    connect(mNext, &QToolButton::clicked, this, [this] { mHost.goToFrame(after()); });
-    connect(mStrip, &KeyStrip::picked, this, [this](int frame) { mHost.goToFrame(frame); });
-    connect(&host, &Host::frameChanged, this, &KeysRow::follow);
-    connect(&host, &Host::frameCountChanged, this, &KeysRow::follow);
-    follow();
+    updateLabelWidth();
+    updateIcons();
+    connect(mToggle, &QToolButton::clicked, this, &KeysRow::keyToggled);
+    connect(mPrevious, &QToolButton::clicked, this, [this] { mHost.goToFrame(previousKey()); });
+    connect(mNext, &QToolButton::clicked, this, [this] { mHost.goToFrame(nextKey()); });
+    connect(mStrip, &KeyStrip::frameClicked, this, [this](int frame) { mHost.goToFrame(frame); });
+    connect(&host, &Host::frameChanged, this, &KeysRow::updateButtons);
+    connect(&host, &Host::frameCountChanged, this, &KeysRow::updateButtons);
+    updateButtons();
 }
 
 void KeysRow::setKeys(const QVector<int>& frames)
 {
     mFrames = frames;
     mStrip->setKeys(frames);
-    follow();
+    updateButtons();
 }
 
 void KeysRow::changeEvent(QEvent* event)
 {
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange)
-        align();
+        updateLabelWidth();
     if (event->type() == QEvent::PaletteChange)
     {
-        drawIcons();
-        follow();
+        updateIcons();
+        updateButtons();
     }
     QWidget::changeEvent(event);
 }
 
-void KeysRow::align()
+void KeysRow::updateLabelWidth()
 {
     mLabel->setFixedWidth(ValueRow::labelWidth(fontMetrics()));
 }
 
-void KeysRow::drawIcons()
+void KeysRow::updateIcons()
 {
-    mKey = diamondIcon(true, palette(), devicePixelRatioF());
-    mNoKey = diamondIcon(false, palette(), devicePixelRatioF());
+    mKeyIcon = diamondIcon(true, palette(), devicePixelRatioF());
+    mNoKeyIcon = diamondIcon(false, palette(), devicePixelRatioF());
 }
 
-void KeysRow::follow()
+void KeysRow::updateButtons()
 {
     const int frame = mHost.currentFrame();
-    const bool has = mFrames.contains(frame);
-    const bool full = !has && mFrames.size() >= MaxKeys;
+    const bool hasKey = mFrames.contains(frame);
+    const bool isFull = !hasKey && mFrames.size() >= MaxKeys;
     mStrip->setTime(frame, mHost.frameCount());
-    mHere->setIcon(has ? mKey : mNoKey);
-    mHere->setEnabled(!full);
-    tell(mHere, full  ? tr("%1 keys at most").arg(MaxKeys)
-                : has ? tr("Remove the key at frame %1").arg(frame)
-                      : tr("Add a key at frame %1").arg(frame));
-    mPrevious->setEnabled(before() > 0);
-    mNext->setEnabled(after() > 0);
+    mToggle->setIcon(hasKey ? mKeyIcon : mNoKeyIcon);
+    mToggle->setEnabled(!isFull);
+    setHint(mToggle, isFull   ? tr("%1 keys at most").arg(MaxKeys)
+                     : hasKey ? tr("Remove the key at frame %1").arg(frame)
+                              : tr("Add a key at frame %1").arg(frame));
+    mPrevious->setEnabled(previousKey() > 0);
+    mNext->setEnabled(nextKey() > 0);
 }
 
-int KeysRow::before() const
+int KeysRow::previousKey() const
 {
     const auto here = std::lower_bound(mFrames.begin(), mFrames.end(), mHost.currentFrame());
     return here == mFrames.begin() ? 0 : *std::prev(here);
 }
 
-int KeysRow::after() const
+int KeysRow::nextKey() const
 {
     const auto next = std::upper_bound(mFrames.begin(), mFrames.end(), mHost.currentFrame());
     return next == mFrames.end() ? 0 : *next;

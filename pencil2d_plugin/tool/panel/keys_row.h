@@ -1,4 +1,4 @@
-// One line of the panel: the keys of a light or the floor.
+// One line of the panel, for the keys of a light or the floor.
 #pragma once
 
 #include "host/host.h"
@@ -11,8 +11,8 @@
 namespace lampblack
 {
 
-/// Name, strip, and buttons: to the key before, a key here or none, to the key after. Follows the host's time
-/// and moves it; the keys themselves are the owner's affair.
+/// A name, a strip, and buttons: to the previous key, add or remove a key here, to the next key. It shows and
+/// changes the host's current frame. Its owner adds and removes keys.
 class KeysRow : public QWidget
 {
     Q_OBJECT
@@ -21,31 +21,31 @@ public:
     /// `name` begins the objectNames: "<name>.previous", ".here", ".next" and ".strip".
     KeysRow(const QString& name, Host& host, QWidget* parent = nullptr);
 
-    /// Rising, each once.
+    /// Frames of the keys in rising order, each once.
     void setKeys(const QVector<int>& frames);
 
 Q_SIGNALS:
-    /// A key at the current frame is wanted, or no longer.
+    /// A key at the current frame is to be added, or removed if there is one.
     void keyToggled();
 
 protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    void align();
-    void drawIcons();
-    void follow();
-    int before() const; ///< the frame of the key before the current frame; 0 if there is none
-    int after() const;
+    void updateLabelWidth();
+    void updateIcons();
+    void updateButtons();
+    int previousKey() const; ///< the frame of the key before the current frame; 0 if there is none
+    int nextKey() const;
 
     Host& mHost;
     QVector<int> mFrames;
-    QIcon mKey; ///< made once, for Qt keeps the pixmap of every icon that it painted
-    QIcon mNoKey;
+    QIcon mKeyIcon; ///< created once, because Qt keeps the pixmap of every icon that it has painted
+    QIcon mNoKeyIcon;
     QLabel* mLabel;
     KeyStrip* mStrip;
     QToolButton* mPrevious;
-    QToolButton* mHere;
+    QToolButton* mToggle;
     QToolButton* mNext;
 };
 

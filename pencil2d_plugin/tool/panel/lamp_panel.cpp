@@ -1,8 +1,8 @@
 #include "tool/panel/lamp_panel.h"
 
+#include "tool/panel/environment_section.h"
 #include "tool/panel/layers_section.h"
 #include "tool/panel/lights_section.h"
-#include "tool/panel/surroundings_section.h"
 
 #include <QHBoxLayout>
 #include <QScrollBar>
@@ -28,8 +28,8 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn); // what comes and goes must not shift the rest
-    // The tool options are narrow: with the usual font, sliders would have no room.
+    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn); // keeps the width constant
+    // The tool options are narrow: with the normal font there would be no room for sliders.
     QFont small = font();
     small.setPointSizeF(std::max(LeastPointSize, SmallShare * small.pointSizeF()));
     auto* content = new QWidget;
@@ -71,7 +71,7 @@ QWidget* LampPanel::viewSwitch()
         button->setToolTip(hint);
         button->setCheckable(true);
         button->setFocusPolicy(Qt::StrongFocus);
-        // Each as wide as its word, and all together as wide as the panel.
+        // Widths are proportional to the lengths of the words, and fill the panel.
         button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
         mViews->addButton(button, int(mode));
         row->addWidget(button, int(text.size()) + 3);
@@ -99,14 +99,14 @@ void LampPanel::setViewMode(ViewMode mode)
 
 void LampPanel::showProblem(const UserError& error)
 {
-    mProblem->tell(error);
+    mProblem->showError(error);
     verticalScrollBar()->setValue(0);
 }
 
 void LampPanel::showEvent(QShowEvent* event)
 {
     QScrollArea::showEvent(event);
-    // Once the dock knows its new page.
+    // Later, when the dock has laid out its new page.
     if (!event->spontaneous())
         QTimer::singleShot(0, this, [this] { mHeight.borrow(*this, sizeHint().height()); });
 }

@@ -1,4 +1,4 @@
-// The panel in the tool options.
+// The lamp's panel in the tool options.
 #pragma once
 
 #include "host/host.h"
@@ -14,7 +14,7 @@
 namespace lampblack
 {
 
-/// Scrolls, so that it fits the smallest dock. Bound to the document both ways.
+/// It scrolls, so that it fits into the smallest dock. It shows and edits the document.
 class LampPanel : public QScrollArea
 {
     Q_OBJECT

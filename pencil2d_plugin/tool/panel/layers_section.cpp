@@ -1,7 +1,7 @@
 #include "tool/panel/layers_section.h"
 
 #include "scene/layer_roles.h"
-#include "tool/panel/scroll_past.h"
+#include "tool/panel/ignore_wheel.h"
 
 #include <QComboBox>
 #include <QGridLayout>
@@ -27,7 +27,7 @@ LayersSection::LayersSection(Host& host, SceneDocument& document, QWidget* paren
 
 void LayersSection::refresh()
 {
-    // Deferred: a refresh may come from a box of the rows that go.
+    // deleteLater(), because a signal of one of these rows may have caused the refresh.
     if (mRows != nullptr)
     {
         mRows->hide();
@@ -60,7 +60,7 @@ void LayersSection::refresh()
         role->addItem(tr("Line"), QStringLiteral("line"));
         role->addItem(tr("Background"), QStringLiteral("background"));
         role->setCurrentIndex(qMax(0, role->findData(roleOf(layer.name, roles))));
-        scrollPast(role);
+        ignoreWheelWithoutFocus(role);
         const QString layerName = layer.name;
         connect(role, qOverload<int>(&QComboBox::activated), this,
                 [this, layerName, role](int index) { setRole(layerName, role->itemData(index).toString()); });
@@ -73,7 +73,7 @@ void LayersSection::refresh()
 
 void LayersSection::setRole(const QString& layer, const QString& role)
 {
-    // Every layer is named: with some named, those left out would not be lit.
+    // Give every layer a role: as soon as one has a role, layers without one are backgrounds.
     const LayerRoles before = mDocument.layerRoles();
     LayerRoles roles = before;
     const QVector<Layer> layers = mHost.layers();

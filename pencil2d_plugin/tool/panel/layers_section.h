@@ -1,4 +1,4 @@
-// Which layers are characters, which are their lines, and which stay as drawn.
+// The roles of the layers: characters and their lines are lit, backgrounds stay as drawn.
 #pragma once
 
 #include "host/host.h"

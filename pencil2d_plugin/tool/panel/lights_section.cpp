@@ -14,7 +14,7 @@ namespace lampblack
 namespace
 {
 
-constexpr double Far = 1e5; // the schema's ends of the canvas frame
+constexpr double Far = 1e5; // the schema's limit of coordinates
 constexpr int DiscSide = 16;
 
 SliderScale heightScale(double unit)
@@ -99,17 +99,20 @@ LightsSection::LightsSection(Host& host, SceneDocument& document, QWidget* paren
 
     connect(mColour, &ColourButton::edited, this,
             [this](const QColor& colour, int gesture) {
-                change(tr("Change Light Colour"), gesture, [&](AreaLight& light) { light.colour = colour; });
+                changeLight(tr("Change Light Colour"), gesture,
+                            [&](AreaLight& light) { light.colour = colour; });
             });
-    connect(mPower, &ValueRow::edited, this,
-            [this](double value, int gesture)
-            { change(tr("Change Light Power"), gesture, [&](AreaLight& light) { light.power = value; }); });
+    connect(
+        mPower, &ValueRow::edited, this,
+        [this](double value, int gesture)
+        { changeLight(tr("Change Light Power"), gesture, [&](AreaLight& light) { light.power = value; }); });
     connect(mSize, &ValueRow::edited, this,
-            [this](double value, int gesture)
-            { change(tr("Change Light Size"), gesture, [&](AreaLight& light) { light.size = value; }); });
+            [this](double value, int gesture) {
+                changeLight(tr("Change Light Size"), gesture, [&](AreaLight& light) { light.size = value; });
+            });
     connect(mHeight, &ValueRow::edited, this,
             [this](double value, int gesture)
-            { change(tr("Change Light Height"), gesture, [&](AreaLight& light) { light.z = value; }); });
+            { changeLight(tr("Change Light Height"), gesture, [&](AreaLight& light) { light.z = value; }); });
     connect(mKeys, &KeysRow::keyToggled, this, &LightsSection::toggleKey);
     connect(&host, &Host::frameChanged, this,
             [this]
@@ -131,7 +134,7 @@ void LightsSection::refresh()
         QToolButton* button = mLights[size_t(light)];
         button->setVisible(light < scene.lights.size());
         button->setChecked(light == selected);
-        // Qt keeps the pixmap of every icon that it painted: a new one at each move would pile up.
+        // Only if it changes, because Qt keeps the pixmap of every icon that it has painted.
         if (light < scene.lights.size() && mDiscs[size_t(light)] != scene.lights[light].colour)
         {
             mDiscs[size_t(light)] = scene.lights[light].colour;
@@ -139,10 +142,10 @@ void LightsSection::refresh()
         }
     }
     mAdd->setEnabled(scene.lights.size() < MaxLights);
-    const bool has = selected >= 0 && selected < scene.lights.size();
-    mDelete->setEnabled(has);
-    mNumbers->setEnabled(has);
-    if (!has)
+    const bool hasLight = selected >= 0 && selected < scene.lights.size();
+    mDelete->setEnabled(hasLight);
+    mNumbers->setEnabled(hasLight);
+    if (!hasLight)
         return;
     const AreaLight& light = scene.lights[selected];
     mColour->setColour(light.colour);
@@ -159,7 +162,7 @@ void LightsSection::addLight()
     Scene scene = mDocument.scene();
     if (scene.lights.size() >= MaxLights)
         return;
-    // Each new light takes another corner, so that no two hide each other.
+    // Each light starts at another corner, so that none hides another.
     const int corner = scene.lights.size();
     const double x = scene.canvas.width() * (corner % 2 ? 0.75 : 0.25);
     const double y = scene.canvas.height() * (corner / 2 ? 0.75 : 0.2);
@@ -173,7 +176,8 @@ void LightsSection::deleteLight()
     mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), mDocument.selectedLight()));
 }
 
-void LightsSection::change(const QString& text, int gesture, const std::function<void(AreaLight&)>& how)
+void LightsSection::changeLight(const QString& text, int gesture,
+                                const std::function<void(AreaLight&)>& apply)
 {
     Scene scene = mDocument.scene();
     const int selected = mDocument.selectedLight();
@@ -182,7 +186,7 @@ void LightsSection::change(const QString& text, int gesture, const std::function
     AreaLight& light = scene.lights[selected];
     const int frame = mHost.currentFrame();
     AreaLight shown = lightAt(light, frame);
-    how(shown);
+    apply(shown);
     light = changedAt(light, frame, shown);
     mDocument.edit(text, scene, gesture);
 }
@@ -195,9 +199,9 @@ void LightsSection::toggleKey()
         return;
     AreaLight& light = scene.lights[selected];
     const int frame = mHost.currentFrame();
-    const bool has = keyFrames(light).contains(frame);
-    light = has ? withoutKey(light, frame) : withKey(light, frame);
-    mDocument.edit(has ? tr("Remove Key") : tr("Add Key"), scene);
+    const bool hasKey = keyFrames(light).contains(frame);
+    light = hasKey ? withoutKey(light, frame) : withKey(light, frame);
+    mDocument.edit(hasKey ? tr("Remove Key") : tr("Add Key"), scene);
 }
 
 } // namespace lampblack

@@ -1,4 +1,4 @@
-// The lights of the scene, and the numbers of the selected one.
+// The lights of the scene, and the values of the selected one.
 #pragma once
 
 #include "host/host.h"
@@ -28,13 +28,13 @@ private:
     void deleteLight();
     void toggleKey();
     /// Change the selected light as it is at the current frame.
-    void change(const QString& text, int gesture, const std::function<void(AreaLight&)>& how);
+    void changeLight(const QString& text, int gesture, const std::function<void(AreaLight&)>& apply);
 
     Host& mHost;
     SceneDocument& mDocument;
     QButtonGroup* mChoice;
     std::array<QToolButton*, MaxLights> mLights{};
-    std::array<QColor, MaxLights> mDiscs; ///< colours of their icons
+    std::array<QColor, MaxLights> mDiscs; ///< colours of the icons of mLights
     QToolButton* mAdd;
     QToolButton* mDelete;
     QWidget* mNumbers;

@@ -13,7 +13,7 @@ ProblemCard::ProblemCard(QWidget* parent) : QFrame(parent), mWhat(new QLabel(thi
 {
     setObjectName(QStringLiteral("lampblack.panel.problem"));
     setFrameShape(QFrame::StyledPanel);
-    // Readable on light and dark themes alike: the card brings its own colours.
+    // Colours of its own, readable in light and dark themes.
     QPalette card = palette();
     card.setColor(QPalette::Window, QColor(255, 240, 214));
     card.setColor(QPalette::WindowText, QColor(64, 40, 8));
@@ -58,7 +58,7 @@ ProblemCard::ProblemCard(QWidget* parent) : QFrame(parent), mWhat(new QLabel(thi
     hide();
 }
 
-void ProblemCard::tell(const UserError& error)
+void ProblemCard::showError(const UserError& error)
 {
     mError = error;
     mWhat->setText(error.what);

@@ -1,4 +1,4 @@
-// What went wrong, what to do, and details worth copying.
+// A card with what went wrong and what to do. Details can be copied.
 #pragma once
 
 #include "user_error.h"
@@ -9,7 +9,7 @@
 namespace lampblack
 {
 
-/// Hidden until there is something to tell; the newest problem stands.
+/// Hidden until there is a problem. Shows the newest one.
 class ProblemCard : public QFrame
 {
     Q_OBJECT
@@ -17,9 +17,9 @@ class ProblemCard : public QFrame
 public:
     explicit ProblemCard(QWidget* parent = nullptr);
 
-    void tell(const UserError& error);
+    void showError(const UserError& error);
     const UserError& error() const { return mError; }
-    /// What "Copy details" puts on the clipboard.
+    /// The text that "Copy details" copies.
     QString report() const;
 
 private:

@@ -1,6 +1,6 @@
 #include "tool/panel/render_section.h"
 
-#include "tool/panel/scroll_past.h"
+#include "tool/panel/ignore_wheel.h"
 
 #include <QAction>
 #include <QGridLayout>
@@ -24,14 +24,14 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     mRange->setAccessibleName(tr("Frames to render"));
     mRange->setToolTip(tr("The loop is the range set in the timeline."));
     mRange->addItems({tr("All"), tr("Loop"), tr("Current")});
-    scrollPast(mRange);
+    ignoreWheelWithoutFocus(mRange);
     mHide->setObjectName(QStringLiteral("lampblack.panel.hide"));
     mHide->setToolTip(tr("Once every frame is in the layer \"Lit\", hide the layers that it was lit from."));
     mQuality->setObjectName(QStringLiteral("lampblack.panel.quality"));
     mQuality->setAccessibleName(tr("Quality of rendered frames"));
     mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
     mQuality->addItems({tr("Low"), tr("Medium"), tr("Final")});
-    scrollPast(mQuality);
+    ignoreWheelWithoutFocus(mQuality);
     mGenerate->setObjectName(QStringLiteral("lampblack.panel.generate"));
     mGenerate->setToolTip(tr("Model every frame now, so that scrubbing and playing are lit at once."));
     mRenderAll->setObjectName(QStringLiteral("lampblack.panel.render"));
@@ -64,7 +64,7 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     connect(mGenerate, &QPushButton::clicked, this, &RenderSection::generateSurfacesRequested);
     connect(mRenderAll, &QPushButton::clicked, &render, &QAction::trigger);
     connect(mCancel, &QPushButton::clicked, this, &RenderSection::cancelRequested);
-    connect(mRange, qOverload<int>(&QComboBox::currentIndexChanged), this, &RenderSection::nameRange);
+    connect(mRange, qOverload<int>(&QComboBox::currentIndexChanged), this, &RenderSection::updateRenderText);
     connect(mQuality, qOverload<int>(&QComboBox::activated), this,
             [this](int index)
             {
@@ -78,7 +78,7 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     refresh();
 }
 
-void RenderSection::nameRange()
+void RenderSection::updateRenderText()
 {
     const std::array<QString, 3> names{tr("Render All Frames"), tr("Render Loop"), tr("Render This Frame")};
     mRenderAll->setText(names[size_t(range())]);

@@ -1,4 +1,4 @@
-// Work on the whole animation: surfaces, final frames, how far they are, and the worker's state.
+// Jobs for the whole animation and their progress, and the worker's state.
 #pragma once
 
 #include "scene/scene_document.h"
@@ -23,7 +23,7 @@ public:
     /// `render` is the action behind the button.
     RenderSection(SceneDocument& document, QAction& render, QWidget* parent = nullptr);
 
-    /// `total` 0: no such work is going on.
+    /// `total` 0: no such job is running.
     void setSurfaceProgress(int done, int total);
     void setRenderProgress(int done, int total);
 
@@ -36,7 +36,7 @@ Q_SIGNALS:
 
 private:
     void refresh();
-    void nameRange();
+    void updateRenderText();
     void setProgress(QProgressBar* bar, int done, int total);
 
     SceneDocument& mDocument;
@@ -51,7 +51,7 @@ private:
     QPushButton* mCancel;
 };
 
-/// "Ready" and the like, with a dot in the state's colour.
+/// The worker's state as text, with a coloured dot.
 class WorkerLine : public QWidget
 {
     Q_OBJECT

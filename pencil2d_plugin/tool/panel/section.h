@@ -1,4 +1,4 @@
-// A part of the panel that folds.
+// A part of the panel that can be folded.
 #pragma once
 
 #include <QToolButton>

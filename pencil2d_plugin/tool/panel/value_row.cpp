@@ -1,6 +1,6 @@
 #include "tool/panel/value_row.h"
 
-#include "tool/panel/scroll_past.h"
+#include "tool/panel/ignore_wheel.h"
 
 #include <QEvent>
 #include <QHBoxLayout>
@@ -16,21 +16,21 @@ namespace lampblack
 namespace
 {
 constexpr int Steps = 1000;
-constexpr int LeastSlider = 30;
+constexpr int MinSliderWidth = 30;
 } // namespace
 
 double SliderScale::valueAt(double position) const
 {
-    const double way = std::abs(position);
-    const double share = bend > 0 ? std::expm1(bend * way) / std::expm1(bend) : way;
+    const double distance = std::abs(position);
+    const double share = bend > 0 ? std::expm1(bend * distance) / std::expm1(bend) : distance;
     return std::clamp(std::copysign(share * end, position), least, most);
 }
 
 double SliderScale::positionOf(double value) const
 {
     const double share = std::min(1.0, std::abs(value) / end);
-    const double way = bend > 0 ? std::log1p(share * std::expm1(bend)) / bend : share;
-    return std::copysign(way, value);
+    const double position = bend > 0 ? std::log1p(share * std::expm1(bend)) / bend : share;
+    return std::copysign(position, value);
 }
 
 ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale& scale, QWidget* parent)
@@ -39,14 +39,14 @@ ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale&
 {
     setObjectName(name + QStringLiteral(".row"));
     mSlider->setObjectName(name);
-    mSlider->setMinimumWidth(LeastSlider);
+    mSlider->setMinimumWidth(MinSliderWidth);
     mSlider->setAccessibleName(label);
     mField->setObjectName(name + QStringLiteral(".field"));
     mField->setAccessibleName(label);
     mField->setButtonSymbols(QAbstractSpinBox::NoButtons);
     mField->setAlignment(Qt::AlignRight);
     mField->setKeyboardTracking(false);
-    // Lets Ctrl+Z in the field undo the scene rather than the typing.
+    // Ctrl+Z in the field undoes a change of the scene, see KeyInput.
     mField->findChild<QLineEdit*>()->setProperty("lampblack.value", true);
     mField->setProperty("lampblack.value", true);
     mLabel->setBuddy(mField);
@@ -56,20 +56,20 @@ ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale&
     row->addWidget(mLabel);
     row->addWidget(mSlider, 1);
     row->addWidget(mField);
-    scrollPast(mSlider);
-    scrollPast(mField);
+    ignoreWheelWithoutFocus(mSlider);
+    ignoreWheelWithoutFocus(mField);
     setScale(scale);
-    align();
-    connect(mSlider, &QSlider::sliderPressed, this, [this] { mSlide = newGesture(); });
-    connect(mSlider, &QSlider::sliderReleased, this, [this] { mSlide = 0; });
-    connect(mSlider, &QSlider::valueChanged, this, &ValueRow::slid);
-    connect(mField, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &ValueRow::typed);
+    updateWidths();
+    connect(mSlider, &QSlider::sliderPressed, this, [this] { mSlideGesture = newGesture(); });
+    connect(mSlider, &QSlider::sliderReleased, this, [this] { mSlideGesture = 0; });
+    connect(mSlider, &QSlider::valueChanged, this, &ValueRow::onSliderMoved);
+    connect(mField, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &ValueRow::onFieldEdited);
 }
 
 void ValueRow::changeEvent(QEvent* event)
 {
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange)
-        align();
+        updateWidths();
     QWidget::changeEvent(event);
 }
 
@@ -78,7 +78,7 @@ int ValueRow::labelWidth(const QFontMetrics& metrics)
     return metrics.horizontalAdvance(tr("Roughness")) + 2;
 }
 
-void ValueRow::align()
+void ValueRow::updateWidths()
 {
     const QFontMetrics metrics = fontMetrics();
     mLabel->setFixedWidth(labelWidth(metrics));
@@ -87,8 +87,8 @@ void ValueRow::align()
 
 void ValueRow::setScale(const SliderScale& scale)
 {
-    const QSignalBlocker quietSlider(mSlider);
-    const QSignalBlocker quietField(mField);
+    const QSignalBlocker sliderBlocker(mSlider);
+    const QSignalBlocker fieldBlocker(mField);
     const double shown = mField->value();
     mScale = scale;
     mSlider->setRange(scale.both ? -Steps : 0, Steps);
@@ -102,7 +102,7 @@ void ValueRow::setScale(const SliderScale& scale)
 
 void ValueRow::setValue(double value)
 {
-    const QSignalBlocker quiet(mField);
+    const QSignalBlocker blocker(mField);
     mField->setValue(value);
     showOnSlider(value);
 }
@@ -114,29 +114,29 @@ void ValueRow::setHint(const QString& hint)
     mField->setAccessibleDescription(hint);
 }
 
-void ValueRow::slid(int position)
+void ValueRow::onSliderMoved(int position)
 {
     const double value = mScale.valueAt(double(position) / Steps);
     const double rounding = std::pow(10, mScale.decimals);
     const double shown = std::round(value * rounding) / rounding;
     {
-        const QSignalBlocker quiet(mField);
+        const QSignalBlocker blocker(mField);
         mField->setValue(shown);
     }
-    Q_EMIT edited(shown, mSlide ? mSlide : mRun.of(objectName()));
+    Q_EMIT edited(shown, mSlideGesture ? mSlideGesture : mGestures.gestureFor(objectName()));
 }
 
-void ValueRow::typed(double value)
+void ValueRow::onFieldEdited(double value)
 {
     showOnSlider(value);
-    Q_EMIT edited(value, mRun.of(objectName()));
+    Q_EMIT edited(value, mGestures.gestureFor(objectName()));
 }
 
 void ValueRow::showOnSlider(double value)
 {
     if (mSlider->isSliderDown())
         return;
-    const QSignalBlocker quiet(mSlider);
+    const QSignalBlocker blocker(mSlider);
     mSlider->setValue(int(std::lround(mScale.positionOf(value) * Steps)));
 }
 

@@ -1,4 +1,4 @@
-// A named number with a slider and a field.
+// A number with a name, a slider and a field.
 #pragma once
 
 #include "tool/gesture.h"
@@ -11,13 +11,13 @@
 namespace lampblack
 {
 
-/// How a slider spreads its values. Small values get more of it when `bend` is above 0; a `both`
-/// slider has 0 in its middle.
+/// The scale of a slider. If `bend` is above 0, small values get more of its length. A `both` slider has 0 in
+/// its middle.
 struct SliderScale
 {
-    double least = 0; ///< of the field; the slider starts at 0 or at -end
-    double most = 1;  ///< of the field
-    double end = 1;   ///< of the slider; the field may go on
+    double least = 0; ///< minimum of the field; the slider starts at 0 or at -end
+    double most = 1;  ///< maximum of the field
+    double end = 1;   ///< maximum of the slider
     double bend = 0;
     bool both = false;
     int decimals = 2;
@@ -26,20 +26,20 @@ struct SliderScale
     double positionOf(double value) const;
 };
 
-/// One line: name, slider, field. Steps that follow each other and a whole drag are one gesture.
+/// One line of the panel. A drag of the slider, or steps that follow each other, are one gesture.
 class ValueRow : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// `name` ends the objectNames: "<name>" of the slider, "<name>.field" of the field.
+    /// The objectName of the slider is "<name>", that of the field "<name>.field".
     ValueRow(const QString& name, const QString& label, const SliderScale& scale, QWidget* parent = nullptr);
 
-    /// Of every row of the panel: their controls stand in line.
+    /// The same for every row of the panel, so that their controls are aligned.
     static int labelWidth(const QFontMetrics& metrics);
 
     double value() const { return mField->value(); }
-    /// Show a value; tells nobody.
+    /// Show a value; does not emit edited().
     void setValue(double value);
     void setScale(const SliderScale& scale);
     void setSuffix(const QString& suffix) { mField->setSuffix(suffix); }
@@ -52,17 +52,17 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    void align();
-    void slid(int position);
-    void typed(double value);
+    void updateWidths();
+    void onSliderMoved(int position);
+    void onFieldEdited(double value);
     void showOnSlider(double value);
 
     SliderScale mScale;
     QLabel* mLabel;
     QSlider* mSlider;
     QDoubleSpinBox* mField;
-    GestureRun mRun;
-    int mSlide = 0; ///< the gesture while the slider is held
+    GestureSequence mGestures;
+    int mSlideGesture = 0; ///< the gesture while the slider is held
 };
 
 } // namespace lampblack

@@ -183,9 +183,9 @@ private Q_SLOTS:
         sequence->setObjectName(QStringLiteral("actionExport_ImageSeq"));
         connect(sequence, &QAction::triggered, window.get(), [] { QDialog().exec(); });
         ExportDialog dialog(findParts(window.get()));
-        const Exported exported = dialog.run(1, 3, {}, QStringLiteral("/nowhere"));
+        const ExportResult exported = dialog.exportFrames(1, 3, {}, QStringLiteral("/nowhere"));
         QVERIFY(exported.files.isEmpty());
-        QVERIFY(!exported.fault.isEmpty());
+        QVERIFY(!exported.error.isEmpty());
     }
 
     void anotherProjectAsksFirst()

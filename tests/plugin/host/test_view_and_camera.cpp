@@ -83,10 +83,10 @@ private Q_SLOTS:
     void wholeZoomsSnap()
     {
         const QTransform half(3, 0, 0, -3, 10.5, 20.25);
-        QCOMPARE(snapped(half), QTransform(3, 0, 0, -3, 11, 20));
+        QCOMPARE(snappedToPixels(half), QTransform(3, 0, 0, -3, 11, 20));
         for (const QTransform& kept :
              {QTransform(0.33, 0, 0, 0.33, 10.5, 20.25), QTransform(0, 1, -1, 0, 0.5, 0.5)})
-            QCOMPARE(snapped(kept), kept);
+            QCOMPARE(snappedToPixels(kept), kept);
     }
 
     void zoomIsRead()

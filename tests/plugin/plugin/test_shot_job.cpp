@@ -41,7 +41,7 @@ struct Shot
     FrameFeed feed{host, worker, document};
     LitLayer layer{host, document};
     ShotJob job{host, worker, feed, layer, document};
-    QSignalSpy ended{&job, &ShotJob::ended};
+    QSignalSpy ended{&job, &ShotJob::finished};
     QSignalSpy problem{&job, &ShotJob::problem};
 };
 
@@ -63,7 +63,7 @@ private Q_SLOTS:
         QVERIFY(shot.problem.isEmpty());
         QCOMPARE(shot.host.mDelivered.keys(), QList<int>({1, 2, 3, 4, 5, 6, 7, 8}));
         QVERIFY(QFileInfo(shot.host.mDelivered.value(8)).isFile());
-        QVERIFY(shot.layer.isUnsaved() && shot.layer.isThere());
+        QVERIFY(shot.layer.isUnsaved() && shot.layer.exists());
         for (const Layer& layer : shot.host.mLayers)
             QCOMPARE(layer.visible, layer.name == QLatin1String("Lit") || layer.kind == Layer::Kind::Camera);
 
@@ -165,7 +165,7 @@ private Q_SLOTS:
     void noBackupNoLayer()
     {
         Shot shot;
-        QVERIFY(QDir().mkpath(backupOf(shot.host.mProject) + QStringLiteral("/in the way")));
+        QVERIFY(QDir().mkpath(backupPath(shot.host.mProject) + QStringLiteral("/in the way")));
         shot.job.render({1, 2}, false);
         shot.worker.finishFrames({1, 2});
         shot.worker.endJob();
@@ -198,7 +198,7 @@ private Q_SLOTS:
             QFile file(path);
             QVERIFY(file.open(QFile::WriteOnly));
         }
-        QCOMPARE(backUp(project), QString());
+        QCOMPARE(backUpProject(project), QString());
         QVERIFY(QFile::exists(folder.filePath(QStringLiteral("walk.backup.pcl"))));
         QVERIFY(QFile::exists(folder.filePath(QStringLiteral("walk.backup.pcl.data/001.001.png"))));
     }

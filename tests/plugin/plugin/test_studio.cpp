@@ -18,7 +18,7 @@ private:
     void openLit()
     {
         mHost->open();
-        QTRY_VERIFY(!mWorker->mViews.isEmpty());
+        QTRY_VERIFY(!mWorker->mPreviews.isEmpty());
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(mHost->currentFrame()));
         QVERIFY(showsPicture());
         QVERIFY(mStudio->isSettled());
@@ -34,7 +34,7 @@ private Q_SLOTS:
         QTest::qWait(20);
         QCOMPARE(mWorker->mStarted, 0);
         QVERIFY(mHost->mRequests.isEmpty());
-        QVERIFY(mWorker->mViews.isEmpty());
+        QVERIFY(mWorker->mPreviews.isEmpty());
     }
 
     void pickingTheLampShowsTheFrame()
@@ -46,12 +46,12 @@ private Q_SLOTS:
         QCOMPARE(mHost->mRequests[0].layers, (QStringList{QStringLiteral("Line"), QStringLiteral("Hills")}));
         QCOMPARE(mWorker->mPut, QVector<int>{1});
         QCOMPARE(mWorker->mPalettes, QVector<int>{1});
-        QTRY_COMPARE(mWorker->mViews.size(), 1);
-        QCOMPARE(mWorker->mViews[0].frame, 1);
-        QCOMPARE(mWorker->mViews[0].show, Show::Lit);
+        QTRY_COMPARE(mWorker->mPreviews.size(), 1);
+        QCOMPARE(mWorker->mPreviews[0].frame, 1);
+        QCOMPARE(mWorker->mPreviews[0].show, Show::Lit);
         QVERIFY(!showsPicture());
 
-        LookImage coarse = mWorker->pictureOf(1);
+        PreviewImage coarse = mWorker->pictureOf(1);
         coarse.converged = false;
         Q_EMIT mWorker->imageArrived(coarse);
         QVERIFY(showsPicture());
@@ -73,7 +73,7 @@ private Q_SLOTS:
         setPower(2.5);
         QTest::qWait(20);
         QCOMPARE(mWorker->mScenes.size(), scenes + 1);
-        QCOMPARE(mWorker->mViews.size(), 1); // the worker lights what it was asked for, again
+        QCOMPARE(mWorker->mPreviews.size(), 1); // the worker lights what it was asked for, again
 
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
         QVERIFY(mStudio->isSettled());
@@ -84,16 +84,16 @@ private Q_SLOTS:
         openLit();
         for (int shift = 1; shift <= 10; ++shift)
             mHost->setView(QTransform::fromTranslate(-shift, 0));
-        QTRY_COMPARE(mWorker->mViews.size(), 2);
+        QTRY_COMPARE(mWorker->mPreviews.size(), 2);
         QTest::qWait(20);
-        QCOMPARE(mWorker->mViews.size(), 2);
-        QCOMPARE(mWorker->mViews[1].crop.left(), 10.0);
+        QCOMPARE(mWorker->mPreviews.size(), 2);
+        QCOMPARE(mWorker->mPreviews[1].crop.left(), 10.0);
     }
 
     void newDrawingReplacesThePicture()
     {
         openLit();
-        const LookImage old = mWorker->pictureOf(1);
+        const PreviewImage old = mWorker->pictureOf(1);
         Q_EMIT mHost->drawingChanged(1);
         QCOMPARE(mWorker->mPut, (QVector<int>{1, 1}));
         QCOMPARE(mWorker->mPalettes, (QVector<int>{1, 1}));
@@ -110,7 +110,7 @@ private Q_SLOTS:
     {
         openLit();
         const int requests = mHost->mRequests.size();
-        Q_EMIT mWorker->frameWanted(3);
+        Q_EMIT mWorker->frameNeeded(3);
         QCOMPARE(mHost->mRequests.size(), requests + 1);
         QCOMPARE(mHost->mRequests.last().first, 3);
         QCOMPARE(mHost->mRequests.last().layers, mHost->mRequests.first().layers);
@@ -149,7 +149,7 @@ private Q_SLOTS:
         QVERIFY(!showsPicture());
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
         QVERIFY(!showsPicture());
-        QTRY_COMPARE(mWorker->mViews.last().show, Show::Normals);
+        QTRY_COMPARE(mWorker->mPreviews.last().show, Show::Normals);
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1, Show::Normals));
         QVERIFY(showsPicture());
     }
@@ -196,10 +196,10 @@ private Q_SLOTS:
     void leavingTheLampStopsTheWork()
     {
         openLit();
-        const int stopped = mWorker->mStoppedLooking;
+        const int cancelled = mWorker->mPreviewsCancelled;
         mHost->mTool->setChecked(false);
         QCOMPARE(mHost->mCancelled, 1);
-        QTRY_COMPARE(mWorker->mStoppedLooking, stopped + 1);
+        QTRY_COMPARE(mWorker->mPreviewsCancelled, cancelled + 1);
         QVERIFY(!showsPicture());
         const int requests = mHost->mRequests.size();
         Q_EMIT mHost->drawingChanged(1);

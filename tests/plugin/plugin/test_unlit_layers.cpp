@@ -1,5 +1,5 @@
 // Layers that are not lit, from a host that exports at once.
-#include "plugin/surroundings.h"
+#include "plugin/unlit_layers.h"
 #include "support/fake_host.h"
 #include "support/fake_worker.h"
 
@@ -27,20 +27,20 @@ const LayerRoles Roles = {{QStringLiteral("Fox"), QStringLiteral("character")},
 
 } // namespace
 
-class SurroundingsTest : public QObject
+class UnlitLayersTest : public QObject
 {
     Q_OBJECT
 
 private Q_SLOTS:
     void layersAreSortedAsTheCommandLineSortsThem()
     {
-        const LayerStack all = stackLayers({layer("Ink"), layer("Fox"), layer("Gone", false)}, {});
+        const LayerStack all = sortLayers({layer("Ink"), layer("Fox"), layer("Gone", false)}, {});
         QCOMPARE(all.lit, (QStringList{QStringLiteral("Ink"), QStringLiteral("Fox")}));
         QVERIFY(all.above.isEmpty() && all.below.isEmpty());
 
         // Once one is a character, what has no role is background; between two that are lit, it is under
         // both.
-        const LayerStack some = stackLayers(
+        const LayerStack some = sortLayers(
             {layer("Rain"), layer("Ink"), layer("Mist"), layer("Fox"), layer("Hills"), layer("Sky", false)},
             Roles);
         QCOMPARE(some.above, QStringList{QStringLiteral("Rain")});
@@ -51,7 +51,7 @@ private Q_SLOTS:
     void sourcesHiddenBehindTheirResultAreLit()
     {
         const LayerStack stack =
-            stackLayers({layer("Lit"), layer("Fox", false), layer("Sketch", false)}, Roles);
+            sortLayers({layer("Lit"), layer("Fox", false), layer("Sketch", false)}, Roles);
         QCOMPARE(stack.lit, QStringList{QStringLiteral("Fox")});
         QVERIFY(stack.above.isEmpty() && stack.below.isEmpty());
     }
@@ -68,21 +68,21 @@ private Q_SLOTS:
         host.mLayers = {layer("Rain"), layer("Ink"), layer("Fox"), layer("Hills")};
         document.setLayerRoles(Roles);
         FrameFeed feed(host, worker, document);
-        const Surroundings around(host, feed, document);
-        QVERIFY(!around.isKnown(1));
-        feed.setOn(true);
-        QVERIFY(around.isKnown(1));
-        QCOMPARE(around.below(1).layers, QStringList{QStringLiteral("Hills")});
-        QCOMPARE(around.above(1).layers, QStringList{QStringLiteral("Rain")});
+        const UnlitLayers unlit(host, feed, document);
+        QVERIFY(!unlit.isLoaded(1));
+        feed.setEnabled(true);
+        QVERIFY(unlit.isLoaded(1));
+        QCOMPARE(unlit.below(1).layers, QStringList{QStringLiteral("Hills")});
+        QCOMPARE(unlit.above(1).layers, QStringList{QStringLiteral("Rain")});
         // What is lit comes first, and the worker gets nothing else.
         QCOMPARE(host.mRequests.size(), 3);
         QCOMPARE(host.mRequests[0].layers, (QStringList{QStringLiteral("Ink"), QStringLiteral("Fox")}));
         QCOMPARE(worker.mPut, QVector<int>{1});
 
-        feed.wantAll(1, 2);
+        feed.requestAll(1, 2);
         QCOMPARE(host.mRequests.size(), 6);
         // The same background in all frames is kept once.
-        QCOMPARE(around.below(1).image.cacheKey(), around.below(2).image.cacheKey());
+        QCOMPARE(unlit.below(1).image.cacheKey(), unlit.below(2).image.cacheKey());
 
         Q_EMIT host.drawingChanged(1);
         QCOMPARE(host.mRequests.size(), 9);
@@ -101,12 +101,12 @@ private Q_SLOTS:
         host.mLayers = {layer("Fox"), layer("Hills")};
         document.setLayerRoles(Roles);
         FrameFeed feed(host, worker, document);
-        const Surroundings around(host, feed, document);
-        feed.setOn(true);
-        QVERIFY(around.isKnown(1));
-        QVERIFY(around.below(1).image.isNull());
+        const UnlitLayers unlit(host, feed, document);
+        feed.setEnabled(true);
+        QVERIFY(unlit.isLoaded(1));
+        QVERIFY(unlit.below(1).image.isNull());
     }
 };
 
-QTEST_MAIN(SurroundingsTest)
+QTEST_MAIN(UnlitLayersTest)
 #include "test_unlit_layers.moc"

@@ -12,7 +12,7 @@ namespace lampblack
 class FakeWorker : public Worker
 {
 public:
-    struct View
+    struct PreviewRequest
     {
         int frame;
         Show show;
@@ -30,17 +30,17 @@ public:
     void dropAllFrames() override { ++mDropped; }
     void setScene(const Scene& scene) override { mScenes.append(scene); }
     quint64 revision() const override { return quint64(mScenes.size()); }
-    bool isCurrent(const LookImage& image) const override
+    bool isCurrent(const PreviewImage& image) const override
     {
         return image.digest == digestOf(image.frame) &&
                (image.show != Show::Lit || image.revision == revision());
     }
-    void look(int frame, Show show, const QRectF& crop, const QSize& size) override
+    void requestPreview(int frame, Show show, const QRectF& crop, const QSize& size) override
     {
-        mViews.append({frame, show, crop, size});
+        mPreviews.append({frame, show, crop, size});
     }
-    void stopLooking() override { ++mStoppedLooking; }
-    void askPalette(int frame) override { mPalettes.append(frame); }
+    void cancelPreview() override { ++mPreviewsCancelled; }
+    void requestPalette(int frame) override { mPalettes.append(frame); }
     quint64 render(const QString& frames, const QString& output, Quality quality, bool) override
     {
         mFrames = frames;
@@ -51,9 +51,9 @@ public:
     void cancelRender(quint64) override { ++mCancelled; }
 
     /// A picture of the frame's drawing under the scene, both as they are now.
-    LookImage pictureOf(int frame, Show show = Show::Lit) const
+    PreviewImage pictureOf(int frame, Show show = Show::Lit) const
     {
-        LookImage image;
+        PreviewImage image;
         image.frame = frame;
         image.show = show;
         image.crop = QRectF(0, 0, 400, 300);
@@ -87,8 +87,8 @@ public:
     QVector<int> mPut;
     int mDropped = 0; ///< how often all frames were
     QVector<Scene> mScenes;
-    QVector<View> mViews;
-    int mStoppedLooking = 0;
+    QVector<PreviewRequest> mPreviews;
+    int mPreviewsCancelled = 0;
     QVector<int> mPalettes;
     QString mFrames; ///< of the last job, as are the next three
     QString mOutput;

@@ -50,7 +50,7 @@ private Q_SLOTS:
         mInput = new CanvasInput(*mHost, *mDocument, *mOverlay);
         mHost->open();
         mOverlay->show();
-        mOverlay->follow();
+        mOverlay->updateHandles();
         mInput->setListening(true);
     }
 

@@ -46,7 +46,7 @@ private Q_SLOTS:
         mHost->mWindow.addAction(undo);
         mHost->open();
         mOverlay->show();
-        mOverlay->follow();
+        mOverlay->updateHandles();
         mInput->setListening(true);
         mKeys->setListening(true);
         mHost->mCanvas->setFocus();
@@ -115,11 +115,11 @@ private Q_SLOTS:
 
     void holdingDShowsTheDrawing()
     {
-        LookImage look;
-        look.picture = QImage(4, 4, QImage::Format_RGBA8888_Premultiplied);
-        look.picture.fill(Qt::red);
-        look.crop = QRectF(0, 0, 400, 300);
-        mOverlay->setPicture(look, QTransform());
+        PreviewImage image;
+        image.picture = QImage(4, 4, QImage::Format_RGBA8888_Premultiplied);
+        image.picture.fill(Qt::red);
+        image.crop = QRectF(0, 0, 400, 300);
+        mOverlay->setPicture(image, QTransform());
         QVERIFY(mOverlay->showsPicture());
         QTest::keyPress(mHost->mCanvas, Qt::Key_D);
         QVERIFY(!mOverlay->showsPicture());

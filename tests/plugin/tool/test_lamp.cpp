@@ -19,9 +19,9 @@ namespace
 
 const QColor Green(0, 160, 0);
 
-LookImage look(Show show)
+PreviewImage image(Show show)
 {
-    LookImage picture;
+    PreviewImage picture;
     picture.frame = 1;
     picture.show = show;
     picture.crop = QRectF(0, 0, 400, 300);
@@ -67,13 +67,13 @@ private Q_SLOTS:
         host.open();
         QVERIFY(lamp.isActive());
         QCOMPARE(active.count(), 1);
-        lamp.setPicture(look(Show::Lit));
+        lamp.setPicture(image(Show::Lit));
         QVERIFY(isGreen(host));
         lamp.setViewMode(ViewMode::Normals);
         QVERIFY2(!isGreen(host), "another view drops the picture of the last");
-        lamp.setPicture(look(Show::Lit));
+        lamp.setPicture(image(Show::Lit));
         QVERIFY2(!isGreen(host), "a late picture of another view is passed over");
-        lamp.setPicture(look(Show::Normals));
+        lamp.setPicture(image(Show::Normals));
         QVERIFY(isGreen(host));
         host.mTool->setChecked(false);
         QVERIFY(!lamp.isActive());
@@ -94,7 +94,7 @@ private Q_SLOTS:
         FrameExport still;
         still.frame = 2;
         lamp.setFrame(still);
-        lamp.setPicture(look(Show::Lit));
+        lamp.setPicture(image(Show::Lit));
         QVERIFY2(!isGreen(host), "frame 1 starts 100 pixels to the right");
         QCOMPARE(QColor(host.mCanvas->grab().toImage().pixel(120, 290)), Green);
     }
@@ -184,7 +184,7 @@ private Q_SLOTS:
         QVERIFY(host.mAnimation.contains(lamp.toolAction()));
         lamp.toolAction()->trigger();
         QVERIFY(lamp.isActive());
-        lamp.setPicture(look(Show::Lit));
+        lamp.setPicture(image(Show::Lit));
         dragMouse(host.mCanvas, {{200, 150}, {250, 180}});
         QTest::mouseClick(host.mCanvas, Qt::RightButton, Qt::NoModifier, QPoint(60, 70));
         QCOMPARE(document.undoStack()->count(), 0);
@@ -214,7 +214,7 @@ private Q_SLOTS:
         lamp->setParent(&document);
         document.reset(sceneWithLight(10, 10, 200));
         delete host->mWindow.takeCentralWidget();
-        lamp->setPicture(look(Show::Lit));
+        lamp->setPicture(image(Show::Lit));
         lamp->clearPicture();
         delete lamp;
     }

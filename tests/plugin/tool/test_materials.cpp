@@ -85,12 +85,12 @@ private Q_SLOTS:
         dock.setPalette({{Blue, 100}});
         QVERIFY(mDocument.scene().material(Red).glossy);
         QVERIFY(box(dock, "glossy", Red) != nullptr);
-        auto* elsewhere = dock.findChild<Section*>();
-        QVERIFY(elsewhere->isVisibleTo(&dock) && !elsewhere->isOpen());
-        dock.reveal(Red);
-        QVERIFY(elsewhere->isOpen());
+        auto* otherSection = dock.findChild<Section*>();
+        QVERIFY(otherSection->isVisibleTo(&dock) && !otherSection->isOpen());
+        dock.revealColour(Red);
+        QVERIFY(otherSection->isOpen());
         box(dock, "glossy", Red)->click(); // the default again: nothing to keep
-        QVERIFY(!elsewhere->isVisibleTo(&dock));
+        QVERIFY(!otherSection->isVisibleTo(&dock));
     }
 };
 

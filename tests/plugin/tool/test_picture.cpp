@@ -15,18 +15,18 @@ const QSize View(640, 480);
 const QSize Canvas(400, 300);
 const QRect Mark(260, 90, 12, 12); // canvas pixels; off every axis of symmetry
 
-LookImage lookOf(const QRectF& crop, double pixelsPerCanvasPixel)
+PreviewImage imageOf(const QRectF& crop, double pixelsPerCanvasPixel)
 {
-    LookImage look;
-    look.crop = crop;
-    look.picture =
+    PreviewImage image;
+    image.crop = crop;
+    image.picture =
         QImage((crop.size() * pixelsPerCanvasPixel).toSize(), QImage::Format_RGBA8888_Premultiplied);
-    look.picture.fill(QColor(40, 80, 160));
-    QPainter painter(&look.picture);
+    image.picture.fill(QColor(40, 80, 160));
+    QPainter painter(&image.picture);
     painter.scale(pixelsPerCanvasPixel, pixelsPerCanvasPixel);
     painter.translate(-crop.topLeft());
     painter.fillRect(Mark, QColor(255, 0, 0));
-    return look;
+    return image;
 }
 
 /// Centre of the red mark in logical pixels, weighted by how red a pixel is.
@@ -89,7 +89,7 @@ private Q_SLOTS:
         QFETCH(double, pixelRatio);
         QFETCH(double, density);
         LitPicture picture;
-        picture.setPicture(lookOf(QRectF(QPointF(), QSizeF(Canvas)), density), QTransform());
+        picture.setPicture(imageOf(QRectF(QPointF(), QSizeF(Canvas)), density), QTransform());
         const QImage shown = shownBy(picture, view, pixelRatio);
         const QPointF expected = view.map(QRectF(Mark).center());
         const QPointF found = centreOfMark(shown, pixelRatio);
@@ -101,9 +101,9 @@ private Q_SLOTS:
     {
         // The camera has moved by (30, -20) and the crop starts at a fraction of a pixel.
         const QTransform canvasToImage = QTransform::fromTranslate(30, -20);
-        LookImage look = lookOf(QRectF(200.5, 40.25, 120, 100), 2);
+        PreviewImage image = imageOf(QRectF(200.5, 40.25, 120, 100), 2);
         LitPicture picture;
-        picture.setPicture(look, canvasToImage);
+        picture.setPicture(image, canvasToImage);
         const QTransform view(1.5, 0, 0, 1.5, -40, 12);
         const QPointF expected = view.map(canvasToImage.inverted().map(QRectF(Mark).center()));
         const QPointF found = centreOfMark(shownBy(picture, view, 1), 1);
@@ -113,7 +113,7 @@ private Q_SLOTS:
     void onlyTheCropIsCovered()
     {
         LitPicture picture;
-        picture.setPicture(lookOf(QRectF(100, 50, 200, 100), 1), QTransform());
+        picture.setPicture(imageOf(QRectF(100, 50, 200, 100), 1), QTransform());
         const QImage shown = shownBy(picture, QTransform(), 1);
         QCOMPARE(qAlpha(shown.pixel(99, 100)), 0);
         QCOMPARE(qAlpha(shown.pixel(100, 100)), 255);
@@ -123,25 +123,25 @@ private Q_SLOTS:
 
     void whatIsNotLitShowsUnderAndOverIt()
     {
-        LookImage look = lookOf(QRectF(QPointF(), QSizeF(Canvas)), 1);
-        look.picture.fill(Qt::transparent);
+        PreviewImage image = imageOf(QRectF(QPointF(), QSizeF(Canvas)), 1);
+        image.picture.fill(Qt::transparent);
         LitPicture picture;
-        picture.setPicture(look, QTransform());
+        picture.setPicture(image, QTransform());
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(Qt::white));
         FrameExport hills;
         hills.image = QImage(Canvas, QImage::Format_RGBA8888);
         hills.image.fill(QColor(0, 128, 0));
-        picture.setSurroundings(hills, {});
+        picture.setUnlitLayers(hills, {});
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(0, 128, 0));
-        look.picture.fill(Qt::red);
-        picture.setPicture(look, QTransform());
+        image.picture.fill(Qt::red);
+        picture.setPicture(image, QTransform());
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(Qt::red));
         // A plate in front, seen by a camera that has moved since.
         FrameExport rain;
         rain.image = QImage(10, 10, QImage::Format_RGBA8888);
         rain.image.fill(Qt::blue);
         rain.canvasToImage = QTransform::fromTranslate(-60, -60);
-        picture.setSurroundings(hills, rain);
+        picture.setUnlitLayers(hills, rain);
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(65, 65)), QColor(Qt::blue));
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(59, 65)), QColor(Qt::red));
     }
@@ -155,9 +155,9 @@ private Q_SLOTS:
         host.open();
         overlay.setHandlesShown(false);
         overlay.show();
-        overlay.follow();
+        overlay.updateHandles();
         QCOMPARE(overlay.size(), host.mCanvas->size());
-        overlay.setPicture(lookOf(QRectF(QPointF(), QSizeF(Canvas)), 1), QTransform());
+        overlay.setPicture(imageOf(QRectF(QPointF(), QSizeF(Canvas)), 1), QTransform());
         const auto at = [&host](int x, int y)
         {
             return QColor(host.mCanvas->grab().toImage().pixel(x, y));

@@ -63,7 +63,7 @@ private Q_SLOTS:
         mKeys = new KeyInput(*mHost, *mDocument, *mOverlay, *mInput);
         mHost->open();
         mOverlay->show();
-        mOverlay->follow();
+        mOverlay->updateHandles();
         mInput->setListening(true);
         mKeys->setListening(true);
     }

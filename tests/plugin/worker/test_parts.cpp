@@ -1,10 +1,10 @@
 // The parts of the client of the worker, each alone.
 #include "protocol/planes.h"
-#include "worker/frame_book.h"
 #include "worker/frame_list.h"
+#include "worker/frame_store.h"
+#include "worker/image_rank.h"
 #include "worker/inbox.h"
 #include "worker/interpreter.h"
-#include "worker/look_order.h"
 #include "worker/outbox.h"
 
 #include <QFile>
@@ -118,7 +118,7 @@ private Q_SLOTS:
             inbox.push({protocol::Status(), {}});
             inbox.push({protocol::FrameDone{1, int(i), QStringLiteral("/a"), false}, {}});
         }
-        const QVector<Incoming> taken = inbox.take();
+        const QVector<Incoming> taken = inbox.takeAll();
         QCOMPARE(taken.size(), 502);
         QVERIFY(inbox.isEmpty());
         for (const Incoming& incoming : taken)
@@ -178,56 +178,56 @@ private Q_SLOTS:
 
     void aFrameShowsWhatItDidUntilItsDigestIsKnown()
     {
-        FrameBook book;
-        const QSignalSpy shown(&book, &FrameBook::shown);
-        book.put(1, sheet(0xff0000), {});
-        QVERIFY(!book.isSettled(book.lastPut()));
-        QTRY_VERIFY(book.isSettled(book.lastPut()));
+        FrameStore store;
+        const QSignalSpy shown(&store, &FrameStore::frameHashed);
+        store.put(1, sheet(0xff0000), {});
+        QVERIFY(!store.isHashed(store.lastPut()));
+        QTRY_VERIFY(store.isHashed(store.lastPut()));
         const QByteArray red = protocol::frameDigest(sheet(0xff0000));
-        QCOMPARE(book.frames().value(1).digest, red);
-        book.put(1, sheet(0x00ff00), {});
-        QCOMPARE(book.frames().value(1).digest, red);
+        QCOMPARE(store.frames().value(1).digest, red);
+        store.put(1, sheet(0x00ff00), {});
+        QCOMPARE(store.frames().value(1).digest, red);
         QTRY_COMPARE(shown.count(), 2);
-        QCOMPARE(book.frames().value(1).digest, protocol::frameDigest(sheet(0x00ff00)));
-        QCOMPARE(book.drawing(red), sheet(0xff0000));
+        QCOMPARE(store.frames().value(1).digest, protocol::frameDigest(sheet(0x00ff00)));
+        QCOMPARE(store.drawing(red), sheet(0xff0000));
     }
 
     void theSameDrawingAgainChangesNothing()
     {
-        FrameBook book;
-        const QSignalSpy shown(&book, &FrameBook::shown);
-        book.put(1, sheet(0xff0000), {});
-        book.put(2, sheet(0xff0000), {});
+        FrameStore store;
+        const QSignalSpy shown(&store, &FrameStore::frameHashed);
+        store.put(1, sheet(0xff0000), {});
+        store.put(2, sheet(0xff0000), {});
         QTRY_COMPARE(shown.count(), 2);
-        book.put(1, sheet(0xff0000), {});
+        store.put(1, sheet(0xff0000), {});
         QTRY_COMPARE(shown.count(), 3);
         QCOMPARE(shown[2], (QList<QVariant>{1, false}));
-        book.put(1, sheet(0xff0000), QTransform::fromTranslate(3, 0));
+        store.put(1, sheet(0xff0000), QTransform::fromTranslate(3, 0));
         QTRY_COMPARE(shown.count(), 4);
         QCOMPARE(shown[3], (QList<QVariant>{1, true}));
     }
 
     void whatIsDroppedWhileItIsHashedStaysDropped()
     {
-        FrameBook book;
-        book.put(1, sheet(0xff0000, 512), {});
-        book.drop(1);
-        QTRY_VERIFY(book.isSettled(book.lastPut()));
-        QVERIFY(book.frames().isEmpty());
+        FrameStore store;
+        store.put(1, sheet(0xff0000, 512), {});
+        store.drop(1);
+        QTRY_VERIFY(store.isHashed(store.lastPut()));
+        QVERIFY(store.frames().isEmpty());
     }
 
     void theDrawingLeastLatelyUsedIsLetGo()
     {
-        FrameBook book(3 * 1024 * 1024);
-        const QSignalSpy shown(&book, &FrameBook::shown);
+        FrameStore store(3 * 1024 * 1024);
+        const QSignalSpy shown(&store, &FrameStore::frameHashed);
         for (int frame = 1; frame <= 4; ++frame)
         {
-            book.put(frame, sheet(QRgb(0xff0000 + frame), 500), {}); // 1 MB each
+            store.put(frame, sheet(QRgb(0xff0000 + frame), 500), {}); // 1 MB each
             QTRY_COMPARE(shown.count(), frame);
-            QVERIFY(!book.drawing(book.frames().value(1).digest).isNull());
+            QVERIFY(!store.drawing(store.frames().value(1).digest).isNull());
         }
-        QVERIFY(book.drawing(book.frames().value(2).digest).isNull());
-        QVERIFY(!book.drawing(book.frames().value(4).digest).isNull());
+        QVERIFY(store.drawing(store.frames().value(2).digest).isNull());
+        QVERIFY(!store.drawing(store.frames().value(4).digest).isNull());
     }
 
     void theInterpreterIsNamedByVariableThenNoteThenSourceTree()

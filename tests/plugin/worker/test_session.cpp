@@ -210,7 +210,7 @@ private Q_SLOTS:
         session.render(QStringLiteral("1"), QStringLiteral("/tmp/a.%04d.png"), Quality::Final);
         QTRY_COMPARE(done.count(), 1);
         QCOMPARE(done[0][1].toString(), QStringLiteral("failed"));
-        session.stopLooking();
+        session.cancelPreview();
         session.dropAllFrames();
         session.stop();
     }
@@ -225,13 +225,13 @@ private Q_SLOTS:
         session.putFrame(2, sheet(Qt::green));
         session.putFrame(3, sheet(Qt::blue));
         QTest::qWait(100);
-        connect(&session, &Worker::frameWanted, &session,
+        connect(&session, &Worker::frameNeeded, &session,
                 [&session](int frame) { session.putFrame(frame, sheet(frame == 1 ? Qt::red : Qt::green)); });
         session.start();
         session.setScene(sceneLitFrom(1));
-        session.look(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+        session.requestPreview(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
         QTRY_VERIFY(!mImages.isEmpty());
-        session.look(2, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+        session.requestPreview(2, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
         QTRY_COMPARE(mImages.last().frame, 2);
     }
 
@@ -250,7 +250,7 @@ private Q_SLOTS:
     {
         const auto session = open("good");
         const QSignalSpy palette(session.get(), &Worker::paletteArrived);
-        session->askPalette(1); // before there is such a frame
+        session->requestPalette(1); // before there is such a frame
         session->putFrame(1, sheet(Qt::red));
         QTRY_COMPARE(palette.count(), 1);
         QCOMPARE(palette[0][1].value<QVector<Swatch>>().value(0).colour, QStringLiteral("#ff0000"));
@@ -329,10 +329,10 @@ private Q_SLOTS:
         const auto session = open("good");
         lookAtOne(*session);
         QTRY_VERIFY(!mImages.isEmpty());
-        session->look(1, Show::Lit, QRectF(0, 0, qQNaN(), 5), QSize(5, 5));
-        session->look(1, Show::Lit, QRectF(), QSize(5, 5));
-        session->look(-3, Show::Lit, QRectF(0, 0, 5, 5), QSize(5, 5));
-        session->look(1, Show::Lit, QRectF(-1e9, 0, 1e9, 1e-9), QSize(100000, 50000));
+        session->requestPreview(1, Show::Lit, QRectF(0, 0, qQNaN(), 5), QSize(5, 5));
+        session->requestPreview(1, Show::Lit, QRectF(), QSize(5, 5));
+        session->requestPreview(-3, Show::Lit, QRectF(0, 0, 5, 5), QSize(5, 5));
+        session->requestPreview(1, Show::Lit, QRectF(-1e9, 0, 1e9, 1e-9), QSize(100000, 50000));
         QTRY_COMPARE(received().last().value(QLatin1String("type")).toString(), QStringLiteral("preview"));
         const QJsonObject last = received().last();
         QCOMPARE(last.value(QLatin1String("width")).toInt(), 4096);
@@ -355,7 +355,7 @@ private:
     void watch(WorkerSession& session)
     {
         connect(&session, &Worker::imageArrived, this,
-                [this](const LookImage& image) { mImages.append(image); });
+                [this](const PreviewImage& image) { mImages.append(image); });
         connect(&session, &Worker::problem, this,
                 [this](const UserError& error) { mProblems.append(error); });
     }
@@ -364,7 +364,7 @@ private:
     {
         session.putFrame(1, sheet(Qt::red));
         session.setScene(sceneLitFrom(1));
-        session.look(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+        session.requestPreview(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
     }
 
     QList<QJsonObject> received() const
@@ -389,7 +389,7 @@ private:
     }
 
     std::unique_ptr<QTemporaryDir> mFolder;
-    QVector<LookImage> mImages;
+    QVector<PreviewImage> mImages;
     QVector<UserError> mProblems;
 };
 

@@ -67,7 +67,7 @@ private Q_SLOTS:
         qputenv("XDG_CACHE_HOME", mCache.path().toLocal8Bit());
         mSession = std::make_unique<WorkerSession>();
         connect(mSession.get(), &Worker::imageArrived, this,
-                [this](const LookImage& image) { mImage = image; });
+                [this](const PreviewImage& image) { mImage = image; });
         connect(mSession.get(), &Worker::problem, this,
                 [](const UserError& error) { qWarning() << error.what << error.details; });
         mSession->start();
@@ -112,7 +112,7 @@ private Q_SLOTS:
     void itsPaletteIsThatOfTheDrawing()
     {
         const QSignalSpy palette(mSession.get(), &Worker::paletteArrived);
-        mSession->askPalette(1);
+        mSession->requestPalette(1);
         QTRY_COMPARE_WITH_TIMEOUT(palette.count(), 1, PatienceMs);
         QCOMPARE(palette[0][1].value<QVector<Swatch>>().value(0).colour, QStringLiteral("#dc783c"));
     }
@@ -145,13 +145,13 @@ private:
     void show(double x)
     {
         mSession->setScene(litFrom(x));
-        mSession->look(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
+        mSession->requestPreview(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
         QTRY_VERIFY_WITH_TIMEOUT(mSession->isCurrent(mImage) && mImage.converged, PatienceMs);
     }
 
     QTemporaryDir mCache;
     std::unique_ptr<WorkerSession> mSession;
-    LookImage mImage;
+    PreviewImage mImage;
 };
 
 QTEST_GUILESS_MAIN(TestRealWorker)

@@ -1,4 +1,4 @@
-#include "tool/panel/scroll_past.h"
+#include "tool/panel/ignore_wheel.h"
 
 #include <QEvent>
 
@@ -17,16 +17,16 @@ public:
     {
         if (event->type() != QEvent::Wheel || static_cast<QWidget*>(watched)->hasFocus())
             return false;
-        event->ignore(); // Qt offers it to the parent
+        event->ignore(); // Qt passes it to the parent
         return true;
     }
 };
 
 } // namespace
 
-void scrollPast(QWidget* control)
+void ignoreWheelWithoutFocus(QWidget* control)
 {
-    control->setFocusPolicy(Qt::StrongFocus); // a wheel alone must not bring the focus
+    control->setFocusPolicy(Qt::StrongFocus); // the wheel must not give it the focus
     new WheelFilter(control);
 }
 

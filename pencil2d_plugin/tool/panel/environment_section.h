@@ -1,4 +1,4 @@
-// What lights and shapes the whole drawing: ambient light, surface and floor.
+// Settings for the whole drawing: ambient light, surface and floor.
 #pragma once
 
 #include "host/host.h"
@@ -53,7 +53,7 @@ public:
 private:
     void refresh();
     void toggleKey();
-    void change(const QString& text, int gesture, double Floor::*field, double value);
+    void changeFloor(const QString& text, int gesture, double Floor::*field, double value);
 
     Host& mHost;
     SceneDocument& mDocument;

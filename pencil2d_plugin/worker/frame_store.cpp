@@ -1,4 +1,4 @@
-#include "worker/frame_book.h"
+#include "worker/frame_store.h"
 
 #include "protocol/planes.h"
 
@@ -17,24 +17,24 @@ int kibibytes(const QImage& image)
 
 } // namespace
 
-FrameBook::FrameBook(qint64 bytesKept, QObject* parent)
+FrameStore::FrameStore(qint64 bytesKept, QObject* parent)
     : QObject(parent), mDrawings(static_cast<int>(bytesKept / 1024))
 {
-    mHashing.setMaxThreadCount(1); // in order, and one core is enough
+    mHashThread.setMaxThreadCount(1); // keeps the order
 }
 
-FrameBook::~FrameBook()
+FrameStore::~FrameStore()
 {
-    mHashing.clear();
-    mHashing.waitForDone();
+    mHashThread.clear();
+    mHashThread.waitForDone();
 }
 
-quint64 FrameBook::put(int frame, const QImage& pixels, const QTransform& camera)
+quint64 FrameStore::put(int frame, const QImage& pixels, const QTransform& camera)
 {
     const quint64 number = ++mLastPut;
-    mPending.insert(number, frame);
-    mNewest.insert(frame, number);
-    mHashing.start(
+    mPendingPuts.insert(number, frame);
+    mNewestPuts.insert(frame, number);
+    mHashThread.start(
         [this, number, frame, pixels, camera]
         {
             const QImage straight = pixels.convertToFormat(QImage::Format_RGBA8888);
@@ -42,44 +42,44 @@ quint64 FrameBook::put(int frame, const QImage& pixels, const QTransform& camera
             QMetaObject::invokeMethod(
                 this,
                 [this, number, frame, straight, camera, digest]
-                { settle(number, frame, straight, camera, digest); },
+                { onHashed(number, frame, straight, camera, digest); },
                 Qt::QueuedConnection);
         });
     return number;
 }
 
-void FrameBook::drop(int frame)
+void FrameStore::drop(int frame)
 {
-    mNewest.remove(frame);
+    mNewestPuts.remove(frame);
     mFrames.remove(frame);
 }
 
-void FrameBook::clear()
+void FrameStore::clear()
 {
-    mNewest.clear();
+    mNewestPuts.clear();
     mFrames.clear();
     mDrawings.clear();
 }
 
-QImage FrameBook::drawing(const QByteArray& digest)
+QImage FrameStore::drawing(const QByteArray& digest)
 {
     const QImage* found = mDrawings.object(digest);
     return found == nullptr ? QImage() : *found;
 }
 
-bool FrameBook::isSettled(quint64 number) const
+bool FrameStore::isHashed(quint64 number) const
 {
-    return mPending.isEmpty() || mPending.firstKey() > number;
+    return mPendingPuts.isEmpty() || mPendingPuts.firstKey() > number;
 }
 
-void FrameBook::settle(quint64 number, int frame, const QImage& pixels, const QTransform& camera,
-                       const QByteArray& digest)
+void FrameStore::onHashed(quint64 number, int frame, const QImage& pixels, const QTransform& camera,
+                          const QByteArray& digest)
 {
-    mPending.remove(number);
-    const bool superseded = mNewest.value(frame) != number;
+    mPendingPuts.remove(number);
+    const bool superseded = mNewestPuts.value(frame) != number;
     if (!superseded)
     {
-        mNewest.remove(frame);
+        mNewestPuts.remove(frame);
         mDrawings.insert(digest, new QImage(pixels), kibibytes(pixels));
     }
     const ShownFrame before = mFrames.value(frame);
@@ -88,7 +88,7 @@ void FrameBook::settle(quint64 number, int frame, const QImage& pixels, const QT
     {
         mFrames.insert(frame, {digest, camera, ++mLastDrawing});
     }
-    Q_EMIT shown(frame, changed);
+    Q_EMIT frameHashed(frame, changed);
 }
 
 } // namespace lampblack

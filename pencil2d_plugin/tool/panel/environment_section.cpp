@@ -1,4 +1,4 @@
-#include "tool/panel/surroundings_section.h"
+#include "tool/panel/environment_section.h"
 
 #include "scene/timeline.h"
 #include "tool/materials/material_edit.h"
@@ -13,7 +13,7 @@ namespace
 {
 constexpr double Far = 1e5;
 
-/// Near the lower edge, where feet are.
+/// A floor near the lower edge, where feet usually are.
 Floor firstFloor(const Scene& scene)
 {
     Floor floor;
@@ -129,9 +129,10 @@ FloorSection::FloorSection(Host& host, SceneDocument& document, QWidget* parent)
                 mDocument.edit(on ? tr("Place Floor") : tr("Remove Floor"), scene);
             });
     connect(mPosition, &ValueRow::edited, this,
-            [this](double value, int gesture) { change(tr("Move Floor"), gesture, &Floor::y, value); });
+            [this](double value, int gesture) { changeFloor(tr("Move Floor"), gesture, &Floor::y, value); });
     connect(mPitch, &ValueRow::edited, this,
-            [this](double value, int gesture) { change(tr("Pitch Floor"), gesture, &Floor::pitch, value); });
+            [this](double value, int gesture)
+            { changeFloor(tr("Pitch Floor"), gesture, &Floor::pitch, value); });
     connect(&document, &SceneDocument::sceneChanged, this, &FloorSection::refresh);
     refresh();
 }
@@ -150,7 +151,7 @@ void FloorSection::refresh()
     mPitch->setValue(floor.pitch);
 }
 
-void FloorSection::change(const QString& text, int gesture, double Floor::*field, double value)
+void FloorSection::changeFloor(const QString& text, int gesture, double Floor::*field, double value)
 {
     Scene scene = mDocument.scene();
     if (!scene.floor)

@@ -1,4 +1,4 @@
-// Which of the worker's images is newer (SPEC 6).
+// Which of two images of the worker is newer (SPEC 6).
 #pragma once
 
 #include <QtGlobal>
@@ -9,11 +9,11 @@
 namespace lampblack
 {
 
-/// Images rise by request, then by the drawing announced, then by revision, then by pass.
+/// Images are ordered by request, then by drawing, then by scene revision, then by pass.
 struct ImageRank
 {
     quint64 request = 0;
-    quint64 drawing = 0; ///< rises with every drawing announced
+    quint64 drawing = 0; ///< ShownFrame::drawing
     quint64 revision = 0;
     quint64 pass = 0;
 };
