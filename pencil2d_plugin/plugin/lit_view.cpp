@@ -85,20 +85,7 @@ bool LitView::eventFilter(QObject*, QEvent* event)
 
 bool LitView::isShowing() const
 {
-    return mTool.isActive() && mTool.viewMode() != ViewMode::Flat && mHost.can(Host::Ability::View);
-}
-
-Show LitView::selectedShow() const
-{
-    switch (mTool.viewMode())
-    {
-    case ViewMode::Normals:
-        return Show::Normals;
-    case ViewMode::Relief:
-        return Show::Relief;
-    default:
-        return Show::Lit;
-    }
+    return mTool.isActive() && mTool.viewMode() && mHost.can(Host::Ability::View);
 }
 
 void LitView::onViewChanged()
@@ -144,12 +131,13 @@ void LitView::requestPicture()
     if (crop.isEmpty())
         mWorker.cancelPreview();
     else
-        mWorker.requestPreview(frame, selectedShow(), crop, deviceSize(imageToWidget, *mHost.canvas(), crop));
+        mWorker.requestPreview(frame, *mTool.viewMode(), crop,
+                               deviceSize(imageToWidget, *mHost.canvas(), crop));
 }
 
 void LitView::onImageArrived(const PreviewImage& image)
 {
-    if (!isShowing() || image.show != selectedShow())
+    if (!isShowing() || image.show != mTool.viewMode())
         return;
     if (image.frame == mHost.currentFrame() && mUnlit.isLoaded(image.frame))
     {

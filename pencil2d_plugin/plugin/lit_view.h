@@ -32,7 +32,6 @@ private:
     void onImageArrived(const PreviewImage& image);
     void showCached(int frame);
     bool isShowing() const;
-    Show selectedShow() const;
 
     Host& mHost;
     Worker& mWorker;

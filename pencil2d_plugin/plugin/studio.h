@@ -62,7 +62,7 @@ private:
     std::unique_ptr<ShotJob> mJob;
     std::unique_ptr<ProjectScene> mProject;
     DockRoom mMaterialsRoom;
-    QMap<QString, qint64> mColourPixels; ///< most pixels that each flat colour had in one frame
+    QMap<QString, quint64> mColourPixels; ///< most pixels that each flat colour had in one frame
     qulonglong mSentRevision = 0;
     PreviewImage mShownImage;
 };

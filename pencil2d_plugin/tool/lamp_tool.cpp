@@ -16,26 +16,6 @@ static void initIcons()
 namespace lampblack
 {
 
-namespace
-{
-
-Show showOf(ViewMode mode)
-{
-    switch (mode)
-    {
-    case ViewMode::Normals:
-        return Show::Normals;
-    case ViewMode::Relief:
-        return Show::Relief;
-    case ViewMode::Lit:
-    case ViewMode::Flat:
-        break;
-    }
-    return Show::Lit;
-}
-
-} // namespace
-
 LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mTool(new QAction(this)),
       mRender(new QAction(this))
@@ -176,18 +156,18 @@ void LampTool::setActive(bool active)
     Q_EMIT activeChanged(active);
 }
 
-ViewMode LampTool::viewMode() const
+std::optional<Show> LampTool::viewMode() const
 {
-    return mPanel ? mPanel->viewMode() : ViewMode::Flat;
+    return mPanel ? mPanel->viewMode() : std::nullopt;
 }
 
-void LampTool::setViewMode(ViewMode mode)
+void LampTool::setViewMode(std::optional<Show> mode)
 {
     if (mPanel)
         mPanel->setViewMode(mode);
     if (mOverlay)
         mOverlay->clearPicture();
-    Q_EMIT viewModeChanged(mode);
+    Q_EMIT viewModeChanged();
 }
 
 ShotRange LampTool::shotRange() const
@@ -211,7 +191,7 @@ void LampTool::setFrame(const FrameExport& frame)
 
 void LampTool::setPicture(const PreviewImage& picture)
 {
-    if (!mOverlay || viewMode() == ViewMode::Flat || picture.show != showOf(viewMode()))
+    if (!mOverlay || picture.show != viewMode())
         return;
     mOverlay->setPicture(picture, mCameras.value(picture.frame));
 }

@@ -5,7 +5,6 @@
 #include "scene/scene_document.h"
 #include "tool/canvas/frame_colours.h"
 #include "tool/shot_range.h"
-#include "tool/view_mode.h"
 #include "worker/worker.h"
 
 #include <QHash>
@@ -33,8 +32,9 @@ public:
     ~LampTool() override;
 
     bool isActive() const { return mActive; }
-    ViewMode viewMode() const;
-    void setViewMode(ViewMode mode);
+    /// What the canvas shows while the lamp is in use. No value: the drawing as drawn.
+    std::optional<Show> viewMode() const;
+    void setViewMode(std::optional<Show> mode);
 
     QAction* toolAction() { return mTool; }
     QAction* renderAction() { return mRender; } ///< "Render All Frames"
@@ -64,7 +64,7 @@ public Q_SLOTS:
 
 Q_SIGNALS:
     void activeChanged(bool active);
-    void viewModeChanged(lampblack::ViewMode mode);
+    void viewModeChanged();
     void generateSurfacesRequested();
     void renderAllRequested();
     void cancelRequested();

@@ -2,6 +2,7 @@
 // process and the socket behind it.
 #pragma once
 
+#include "protocol/messages.h"
 #include "scene/scene.h"
 #include "user_error.h"
 
@@ -14,12 +15,8 @@
 namespace lampblack
 {
 
-enum class Show
-{
-    Lit,
-    Normals,
-    Relief
-};
+using protocol::Show;
+using protocol::Swatch;
 
 /// A rendered picture. In its crop it replaces the whole drawing, ink included.
 struct PreviewImage
@@ -32,12 +29,6 @@ struct PreviewImage
     quint64 revision = 0; ///< revision of the scene
     int pass = 0;
     bool converged = false;
-};
-
-struct Swatch
-{
-    QString colour; ///< "#rrggbb"
-    qint64 pixels = 0;
 };
 
 class Worker : public QObject

@@ -14,20 +14,6 @@ namespace
 
 constexpr int MaxListLength = 1024;
 
-protocol::Show wireShow(Show show)
-{
-    switch (show)
-    {
-    case Show::Normals:
-        return protocol::Show::Normals;
-    case Show::Relief:
-        return protocol::Show::Relief;
-    case Show::Lit:
-        break;
-    }
-    return protocol::Show::Lit;
-}
-
 /// Whether the job ends with this error, without a "done" message.
 bool endsJob(const protocol::Error& error)
 {
@@ -112,8 +98,8 @@ void WorkerSession::sendPreviewRequest()
     }
     else
     {
-        sendMessage(protocol::View{mRequest, mPreview->frame, wireShow(mPreview->show), mPreview->crop,
-                                   size.width(), size.height()});
+        sendMessage(protocol::View{mRequest, mPreview->frame, mPreview->show, mPreview->crop, size.width(),
+                                   size.height()});
     }
 }
 
@@ -198,8 +184,7 @@ void WorkerSession::handle(const protocol::NeedFrame& need)
 void WorkerSession::handle(const protocol::Image& image, const QImage& picture)
 {
     const auto shown = mFrameStore.frames().constFind(image.frame);
-    const bool isWanted = mPreview && image.frame == mPreview->frame &&
-                          image.show == wireShow(mPreview->show) &&
+    const bool isWanted = mPreview && image.frame == mPreview->frame && image.show == mPreview->show &&
                           shown != mFrameStore.frames().constEnd() && image.digest == shown->digest;
     const bool isOurs = image.request <= mRequest && image.revision <= mRevision &&
                         !mJobRevisions.contains(image.revision) && !picture.isNull();
@@ -227,12 +212,7 @@ void WorkerSession::handle(const protocol::Palette& palette)
         return;
     }
     mPaletteRequests.remove(palette.frame);
-    QVector<Swatch> swatches;
-    for (const protocol::Swatch& swatch : palette.swatches)
-    {
-        swatches.append({swatch.colour, static_cast<qint64>(swatch.pixels)});
-    }
-    Q_EMIT paletteArrived(palette.frame, swatches);
+    Q_EMIT paletteArrived(palette.frame, palette.swatches);
 }
 
 void WorkerSession::handle(const protocol::Status& status)

@@ -16,8 +16,21 @@ namespace lampblack
 
 namespace
 {
+
 constexpr double SmallShare = 0.85;
 constexpr double LeastPointSize = 7;
+constexpr int FlatButton = 100; // other buttons have the number of their Show as id
+
+int buttonOf(std::optional<Show> mode)
+{
+    return mode ? int(*mode) : FlatButton;
+}
+
+std::optional<Show> modeOf(int button)
+{
+    return button == FlatButton ? std::nullopt : std::optional<Show>(static_cast<Show>(button));
+}
+
 } // namespace
 
 LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
@@ -63,7 +76,8 @@ QWidget* LampPanel::viewSwitch()
     auto* row = new QHBoxLayout(box);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(0);
-    const auto add = [this, row](ViewMode mode, const QString& name, const QString& text, const QString& hint)
+    const auto add =
+        [this, row](std::optional<Show> mode, const QString& name, const QString& text, const QString& hint)
     {
         auto* button = new QToolButton;
         button->setObjectName(QStringLiteral("lampblack.panel.view.") + name);
@@ -73,28 +87,28 @@ QWidget* LampPanel::viewSwitch()
         button->setFocusPolicy(Qt::StrongFocus);
         // Widths are proportional to the lengths of the words, and fill the panel.
         button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-        mViews->addButton(button, int(mode));
+        mViews->addButton(button, buttonOf(mode));
         row->addWidget(button, int(text.size()) + 3);
     };
-    add(ViewMode::Lit, QStringLiteral("lit"), tr("Lit"), tr("The drawing in its light"));
-    add(ViewMode::Normals, QStringLiteral("normals"), tr("Normals"), tr("Which way the surface faces"));
-    add(ViewMode::Relief, QStringLiteral("relief"), tr("Relief"), tr("How near the surface is"));
-    add(ViewMode::Flat, QStringLiteral("flat"), tr("Flat"),
+    add(Show::Lit, QStringLiteral("lit"), tr("Lit"), tr("The drawing in its light"));
+    add(Show::Normals, QStringLiteral("normals"), tr("Normals"), tr("Which way the surface faces"));
+    add(Show::Relief, QStringLiteral("relief"), tr("Relief"), tr("How near the surface is"));
+    add(std::nullopt, QStringLiteral("flat"), tr("Flat"),
         tr("The drawing as drawn (hold D for a moment's look)"));
-    setViewMode(ViewMode::Lit);
+    setViewMode(Show::Lit);
     connect(mViews, &QButtonGroup::idClicked, this,
-            [this](int mode) { Q_EMIT viewModeChanged(static_cast<ViewMode>(mode)); });
+            [this](int button) { Q_EMIT viewModeChanged(modeOf(button)); });
     return box;
 }
 
-ViewMode LampPanel::viewMode() const
+std::optional<Show> LampPanel::viewMode() const
 {
-    return static_cast<ViewMode>(mViews->checkedId());
+    return modeOf(mViews->checkedId());
 }
 
-void LampPanel::setViewMode(ViewMode mode)
+void LampPanel::setViewMode(std::optional<Show> mode)
 {
-    mViews->button(int(mode))->setChecked(true);
+    mViews->button(buttonOf(mode))->setChecked(true);
 }
 
 void LampPanel::showProblem(const UserError& error)

@@ -6,7 +6,6 @@
 #include "tool/panel/borrowed_height.h"
 #include "tool/panel/problem_card.h"
 #include "tool/panel/render_section.h"
-#include "tool/view_mode.h"
 
 #include <QButtonGroup>
 #include <QScrollArea>
@@ -23,8 +22,8 @@ public:
     /// `render` is the action behind "Render All Frames".
     LampPanel(Host& host, SceneDocument& document, QAction& render);
 
-    ViewMode viewMode() const;
-    void setViewMode(ViewMode mode);
+    std::optional<Show> viewMode() const; ///< see LampTool::viewMode()
+    void setViewMode(std::optional<Show> mode);
     void setWorkerState(Worker::State state) { mWorkerLine->setState(state); }
     void showProblem(const UserError& error);
     RenderSection* render() { return mRender; }
@@ -32,7 +31,7 @@ public:
     QSize sizeHint() const override;
 
 Q_SIGNALS:
-    void viewModeChanged(lampblack::ViewMode mode);
+    void viewModeChanged(std::optional<lampblack::Show> mode);
 
 protected:
     void showEvent(QShowEvent* event) override;

@@ -1,4 +1,4 @@
-// Tests that run inside Pencil2D, as a plugin, against the host as the rest of Lampblack gets it.
+// Tests of Host that run inside the real Pencil2D, as a plugin.
 #include "host/host.h"
 #include "host/layer_rows.h"
 #include "host/parts.h"
@@ -53,7 +53,7 @@ std::optional<QPointF> centroid(const QImage& image, const QColor& colour)
     return sum / count / image.devicePixelRatio();
 }
 
-/// What of the artist's must be as it was.
+/// What an export must not change.
 struct State
 {
     QString title;

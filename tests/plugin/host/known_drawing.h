@@ -1,4 +1,4 @@
-// A project whose every pixel is known, written as Pencil2D stores it.
+// A project with known pixels, written as Pencil2D stores it.
 #pragma once
 
 #include <QBuffer>

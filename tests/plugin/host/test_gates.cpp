@@ -1,4 +1,4 @@
-// Builds of Pencil2D that lack this or that: each ability falls on its own, nothing crashes.
+// Other versions of Pencil2D: each ability can be missing alone, and nothing crashes.
 #include "host/export_dialog.h"
 #include "host/pencil2d_host.h"
 

@@ -1,4 +1,4 @@
-// Starts the real Pencil2D with a visitor inside, on projects whose every pixel is known.
+// Starts the real Pencil2D with a visitor plugin inside, with projects of known pixels.
 #include "known_drawing.h"
 
 #include <QProcess>

@@ -1,4 +1,4 @@
-// Dialogs answered without being seen, as the program under us opens them.
+// Dialogs are answered without being shown.
 #include "host/unseen_dialogs.h"
 
 #include <QApplication>

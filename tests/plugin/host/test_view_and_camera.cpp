@@ -1,4 +1,4 @@
-// The view found in foreign memory, and the camera between its key frames.
+// The view transform is found in memory, and the camera is interpolated between its keys.
 #include "host/camera_path.h"
 #include "host/project_watch.h"
 #include "host/transport.h"

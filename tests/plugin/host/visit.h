@@ -17,7 +17,7 @@ template <class Visitor> QObject* visitWhenOpen()
         timer, &QTimer::timeout, timer,
         [timer]
         {
-            // A project being opened shows its progress; begun now, the tests would hold it up.
+            // A project is still being opened: its progress dialog is shown.
             if (QApplication::activeModalWidget() != nullptr)
                 return;
             lampblack::Host* host = lampblack::createHost(timer);
@@ -28,7 +28,7 @@ template <class Visitor> QObject* visitWhenOpen()
             }
             timer->stop();
             Visitor visitor(host);
-            // Nothing of Pencil2D's own farewell is under test.
+            // Without the end of Pencil2D, which is not tested here.
             std::_Exit(QTest::qExec(
                 &visitor, {QStringLiteral("visitor"), QStringLiteral("-maxwarnings"), QStringLiteral("0")}));
         });

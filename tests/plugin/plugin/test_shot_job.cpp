@@ -1,4 +1,4 @@
-// "Render All Frames" between a host and a worker that do as they are told.
+// "Render All Frames", from the frames of the host to the result layer.
 #include "plugin/backup.h"
 #include "plugin/project_scene.h"
 #include "plugin/shot_job.h"

@@ -1,4 +1,4 @@
-// Layers that are not lit, from a host that exports at once.
+// Layers that are not lit are exported once and shown as drawn.
 #include "plugin/unlit_layers.h"
 #include "support/fake_host.h"
 #include "support/fake_worker.h"

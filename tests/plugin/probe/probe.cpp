@@ -1,7 +1,7 @@
-// A second plugin for tests: tells over a local socket what stands where in the window.
+// A second plugin for tests: it reports over a local socket what is where in the window.
 //
-// One JSON object a line in, one out. It looks and measures; the mouse and keys are the test's own,
-// sent through the X server as an artist's would be.
+// Each line is a JSON object: a request or its answer. The probe only looks and measures. Mouse and keyboard
+// events are sent by the test through the X server, like those of an artist.
 #include "stalls.h"
 
 #include <QAbstractButton>
@@ -35,7 +35,7 @@ QObject* named(const QString& name)
         if (auto* found = top->findChild<QObject*>(name))
             return found;
     }
-    // Actions may belong to nobody in the window, but to its menus.
+    // Some actions belong to menus, not to the window.
     for (const QWidget* widget : QApplication::allWidgets())
         for (QAction* action : widget->actions())
             if (action->objectName() == name)
@@ -43,7 +43,7 @@ QObject* named(const QString& name)
     return qApp->findChild<QObject*>(name);
 }
 
-/// The first widget, by window order, of a class, for what has no name.
+/// The first visible widget of a class, for widgets without a name.
 QWidget* ofClass(const QString& name)
 {
     for (QWidget* widget : QApplication::allWidgets())
@@ -52,7 +52,7 @@ QWidget* ofClass(const QString& name)
     return nullptr;
 }
 
-QJsonValue told(const QVariant& value)
+QJsonValue toJson(const QVariant& value)
 {
     if (value.canConvert<QTransform>() && value.userType() == qMetaTypeId<QTransform>())
     {
@@ -64,30 +64,30 @@ QJsonValue told(const QVariant& value)
 
 QJsonObject describe(QObject* object)
 {
-    QJsonObject said{{QStringLiteral("class"), QLatin1String(object->metaObject()->className())}};
+    QJsonObject description{{QStringLiteral("class"), QLatin1String(object->metaObject()->className())}};
     const auto* meta = object->metaObject();
     QJsonObject properties;
     for (int i = 0; i < meta->propertyCount(); ++i)
     {
         const QMetaProperty property = meta->property(i);
         if (property.isReadable())
-            properties.insert(QLatin1String(property.name()), told(property.read(object)));
+            properties.insert(QLatin1String(property.name()), toJson(property.read(object)));
     }
     for (const QByteArray& name : object->dynamicPropertyNames())
-        properties.insert(QString::fromLatin1(name), told(object->property(name.constData())));
-    said.insert(QStringLiteral("properties"), properties);
+        properties.insert(QString::fromLatin1(name), toJson(object->property(name.constData())));
+    description.insert(QStringLiteral("properties"), properties);
     if (auto* widget = qobject_cast<QWidget*>(object))
     {
         const QPoint corner = widget->mapToGlobal(QPoint(0, 0));
-        said.insert(QStringLiteral("rect"),
-                    QJsonArray{corner.x(), corner.y(), widget->width(), widget->height()});
-        said.insert(QStringLiteral("seen"), widget->isVisible() && !widget->visibleRegion().isEmpty());
+        description.insert(QStringLiteral("rect"),
+                           QJsonArray{corner.x(), corner.y(), widget->width(), widget->height()});
+        description.insert(QStringLiteral("seen"), widget->isVisible() && !widget->visibleRegion().isEmpty());
     }
-    return said;
+    return description;
 }
 
-/// From a mouse move on the canvas to the picture that follows it: needs the overlay's property
-/// "shownRevision" and the controller's "revision".
+/// The time from a mouse move on the canvas to the paint event that shows its picture. Uses the properties
+/// "sentRevision" and "shownRevision" of Studio.
 class Latency : public QObject
 {
 public:
@@ -159,33 +159,33 @@ private:
                 {
                     while (socket->canReadLine())
                     {
-                        const auto asked = QJsonDocument::fromJson(socket->readLine()).object();
-                        socket->write(QJsonDocument(answer(asked)).toJson(QJsonDocument::Compact) + '\n');
+                        const auto request = QJsonDocument::fromJson(socket->readLine()).object();
+                        socket->write(QJsonDocument(answer(request)).toJson(QJsonDocument::Compact) + '\n');
                     }
                 });
         connect(socket, &QLocalSocket::disconnected, socket, &QObject::deleteLater);
     }
 
-    QJsonObject answer(const QJsonObject& asked)
+    QJsonObject answer(const QJsonObject& request)
     {
-        const QString what = asked.value(QStringLiteral("do")).toString();
-        const QString name = asked.value(QStringLiteral("name")).toString();
-        if (what == QLatin1String("find"))
+        const QString command = request.value(QStringLiteral("do")).toString();
+        const QString name = request.value(QStringLiteral("name")).toString();
+        if (command == QLatin1String("find"))
         {
             QObject* object = named(name);
             return object ? describe(object) : QJsonObject();
         }
-        if (what == QLatin1String("class"))
+        if (command == QLatin1String("class"))
         {
             QWidget* widget = ofClass(name);
             return widget ? describe(widget) : QJsonObject();
         }
-        if (what == QLatin1String("names"))
+        if (command == QLatin1String("names"))
             return names(name);
-        if (what == QLatin1String("trigger"))
+        if (command == QLatin1String("trigger"))
         {
             auto* action = qobject_cast<QAction*>(named(name));
-            // Queued: an action that opens a dialog would not come back.
+            // Queued, because an action that opens a dialog would not return.
             if (action)
                 QMetaObject::invokeMethod(action, &QAction::trigger, Qt::QueuedConnection);
             auto* button = qobject_cast<QAbstractButton*>(named(name));
@@ -193,40 +193,40 @@ private:
                 QMetaObject::invokeMethod(button, &QAbstractButton::click, Qt::QueuedConnection);
             return {{QStringLiteral("done"), action || button}};
         }
-        if (what == QLatin1String("set"))
+        if (command == QLatin1String("set"))
         {
             QObject* object = named(name);
-            const auto property = asked.value(QStringLiteral("property")).toString().toLatin1();
-            const QVariant value = asked.value(QStringLiteral("value")).toVariant();
+            const auto property = request.value(QStringLiteral("property")).toString().toLatin1();
+            const QVariant value = request.value(QStringLiteral("value")).toVariant();
             return {{QStringLiteral("done"), object && object->setProperty(property.constData(), value)}};
         }
-        if (what == QLatin1String("entries"))
+        if (command == QLatin1String("entries"))
             return entries(qobject_cast<QMenu*>(named(name)));
-        if (what == QLatin1String("stalls"))
+        if (command == QLatin1String("stalls"))
         {
             const QJsonObject report = mStalls.report();
             mStalls.reset();
             return report;
         }
-        if (what == QLatin1String("latency"))
+        if (command == QLatin1String("latency"))
         {
             const QJsonArray taken = mLatency.taken;
             mLatency.watch(ofClass(QStringLiteral("ScribbleArea")), named(name));
             qApp->installEventFilter(&mLatency);
             return {{QStringLiteral("milliseconds"), taken}};
         }
-        if (what == QLatin1String("grab"))
+        if (command == QLatin1String("grab"))
         {
             auto* widget = qobject_cast<QWidget*>(named(name));
             if (!widget)
                 widget = ofClass(name);
-            const QString path = asked.value(QStringLiteral("path")).toString();
+            const QString path = request.value(QStringLiteral("path")).toString();
             return {{QStringLiteral("done"), widget && widget->grab().save(path)}};
         }
-        return {{QStringLiteral("error"), QStringLiteral("what is \"%1\"?").arg(what)}};
+        return {{QStringLiteral("error"), QStringLiteral("what is \"%1\"?").arg(command)}};
     }
 
-    /// Where each entry of an open menu stands on the screen, by its text.
+    /// The place of each entry of an open menu on the screen, by its text.
     static QJsonObject entries(const QMenu* menu)
     {
         QJsonObject found;
@@ -241,7 +241,7 @@ private:
         return found;
     }
 
-    /// Names that begin with `prefix`, and whether each is a visible widget.
+    /// Object names that begin with `prefix`, and whether each is a visible widget.
     static QJsonObject names(const QString& prefix)
     {
         QJsonObject found;
@@ -273,7 +273,7 @@ public:
         const QString name = QString::fromLocal8Bit(qgetenv("LAMPBLACK_PROBE"));
         if (key != QLatin1String("lampblackprobe") || name.isEmpty())
             return nullptr;
-        // The application object is being made: wait until it and its window are there.
+        // Queued, because the application object is still being created.
         QMetaObject::invokeMethod(
             qApp, [this, name] { mProbe = std::make_unique<Probe>(name); }, Qt::QueuedConnection);
         return new QObject; // Qt deletes it

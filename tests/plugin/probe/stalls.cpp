@@ -55,7 +55,7 @@ QJsonObject Stalls::report() const
 
 void Stalls::wake()
 {
-    // A turn that never sleeps goes on: what counts is the time until events are waited for again.
+    // It did not wait since the last call: the turn goes on.
     if (mAwake)
         return;
     mAwake = true;

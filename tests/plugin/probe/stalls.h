@@ -1,4 +1,4 @@
-// How long Qt's UI thread is away from its event loop.
+// Measures how long Qt's main thread does not return to its event loop.
 #pragma once
 
 #include <QElapsedTimer>
@@ -6,7 +6,7 @@
 #include <QObject>
 #include <QVector>
 
-/// Measures every turn of the event loop: from waking up to going back to sleep.
+/// Measures every turn of the event loop: from waking up to waiting again.
 class Stalls : public QObject
 {
 public:
@@ -14,8 +14,8 @@ public:
 
     void reset();
 
-    /// "turns", and of the turns longer than each bound in ms: how many by the clock ("wall") and
-    /// how many by the thread's own processor time ("cpu"), with the longest of each.
+    /// The number of "turns". How many were longer than each bound in ms, and the longest: by the clock
+    /// ("wall") and by processor time of the thread ("cpu").
     QJsonObject report() const;
 
 private:

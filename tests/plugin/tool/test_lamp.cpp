@@ -1,4 +1,4 @@
-// The lamp as a whole, in a host that does as it is told.
+// The lamp tool as a whole.
 #include "support/fake_host.h"
 #include "support/fake_worker.h"
 #include "support/mouse.h"
@@ -69,7 +69,7 @@ private Q_SLOTS:
         QCOMPARE(active.count(), 1);
         lamp.setPicture(image(Show::Lit));
         QVERIFY(isGreen(host));
-        lamp.setViewMode(ViewMode::Normals);
+        lamp.setViewMode(Show::Normals);
         QVERIFY2(!isGreen(host), "another view drops the picture of the last");
         lamp.setPicture(image(Show::Lit));
         QVERIFY2(!isGreen(host), "a late picture of another view is passed over");

@@ -1,7 +1,6 @@
-// A worker that does as its script says. Started as `fake_worker -m lampblack serve --connection FILE ...`;
+// A worker process that follows a script. Started as `fake_worker -m lampblack serve --connection FILE ...`.
 // LAMPBLACK_FAKE names the script, LAMPBLACK_FAKE_FOLDER a folder where it counts its launches and logs
-// the headers that it is sent. It writes its messages by hand, so that the client's codec is not its own
-// judge.
+// received headers. It does not use the client's codec, so that it can test it.
 #include <QCoreApplication>
 #include <QDir>
 #include <QElapsedTimer>

@@ -1,4 +1,4 @@
-// The parts of the client of the worker, each alone.
+// The parts of WorkerSession, each alone.
 #include "protocol/planes.h"
 #include "worker/frame_list.h"
 #include "worker/frame_store.h"

@@ -1,4 +1,4 @@
-// The worker's process: started cleanly, watched, started again, given up, ended.
+// WorkerProcess starts, watches, restarts and ends the worker.
 #include "worker/worker_process.h"
 
 #include <QFile>

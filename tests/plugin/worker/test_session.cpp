@@ -1,4 +1,4 @@
-// The client of the worker against a worker that follows a script.
+// WorkerSession with a worker process that follows a script.
 #include "worker/worker_session.h"
 
 #include <QElapsedTimer>
@@ -33,7 +33,7 @@ Scene sceneLitFrom(double x)
     return scene;
 }
 
-/// The longest that the event loop was kept from coming round, told and not judged.
+/// Logs the longest time between two turns of the event loop; nothing is asserted.
 class Watch : public QObject
 {
 public:

@@ -1,4 +1,4 @@
-// The client with the real worker, where LAMPBLACK_PYTHON names an interpreter that has it.
+// WorkerSession with the real worker, if LAMPBLACK_PYTHON names an interpreter that has it.
 #include "worker/worker_session.h"
 
 #include <QElapsedTimer>
