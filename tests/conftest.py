@@ -99,9 +99,9 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         dark = np.zeros((1, 1, 3), np.float32)
         return Passes((), LightPasses(dark, dark))
 
-    monkeypatch.setattr(Pipeline, "surface", lambda *given: None)
+    monkeypatch.setattr("lampblack.prepared.PreparedDrawing.surface", lambda *given: None)
     monkeypatch.setattr(Pipeline, "light", light)
     monkeypatch.setattr(
-        "lampblack.finals.light.composite", lambda drawing, passes, scene: drawing.pixels
+        "lampblack.finals.render_shot.composite", lambda drawing, passes, scene: drawing.pixels
     )
     return rendered

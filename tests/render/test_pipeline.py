@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PIL import Image
 
 from lampblack.drawing import decompose_drawing
 from lampblack.pipeline import MAX_SURFACE_PX, Pipeline, surface_step
@@ -46,31 +45,13 @@ def test_alpha_and_line_are_the_artists_own(pipeline: Pipeline) -> None:
     assert np.abs(lit[ink].astype(int) - picture[ink]).max() <= 2
 
 
-def test_downscaled_final_and_converged_preview_agree(pipeline: Pipeline) -> None:
-    """One pipeline, one composite: quality changes noise and detail, not the picture."""
-    size = 320
-    drawing = decompose_drawing(draw_ball(size))
-    scene = lit_from(60, 40, size)
-    final = pipeline.render(drawing, replace(scene, quality="final"))
-    preview = pipeline.render(drawing, replace(scene, quality="low"))
-
-    def shrink(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
-        flat = Image.new("RGBA", (size, size), "white")
-        flat.alpha_composite(Image.fromarray(picture))
-        return np.asarray(flat.convert("RGB").resize((80, 80), Image.Resampling.BOX)) / 255.0
-
-    difference = shrink(final) - shrink(preview)
-    assert np.sqrt(np.square(difference).mean()) < 0.02
-    assert np.abs(difference).max() < 0.15
-
-
 def test_large_pictures_are_solved_small_and_composited_whole(pipeline: Pipeline) -> None:
     size = MAX_SURFACE_PX + 400
     picture = draw_ball(300, canvas=size)
     drawing = decompose_drawing(picture)
     assert surface_step(drawing) == 2
     assert pipeline.height(drawing).shape == (size // 2, size // 2)
-    vertices = pipeline.relief(drawing, stride=2).vertices
+    vertices = pipeline.prepare(drawing).relief(stride=2).vertices
     assert np.allclose(vertices[:, :2].mean(axis=0), size / 2, atol=2)
     assert np.ptp(vertices[:, 0]) == pytest.approx(240, abs=6)
     lit = pipeline.render(drawing, lit_from(size / 2 - 200, size / 2, size))

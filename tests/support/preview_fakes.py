@@ -107,9 +107,7 @@ class FakeTransport:
 
 def pipeline_with(predictor: FakePredictor, folder: Path) -> Pipeline:
     """A pipeline that caches in ``folder``."""
-    pipeline = Pipeline(ArrayCache(folder))
-    pipeline.__dict__["_predictor"] = predictor
-    return pipeline
+    return Pipeline(ArrayCache(folder), predictor=predictor)
 
 
 class Stage:

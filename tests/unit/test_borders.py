@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from lampblack.colour import linear, srgb
 from lampblack.composite import composite
 from lampblack.composite.borders import mixed_labels
-from lampblack.composite.light_sheet import Light, light_sheet
-from lampblack.composite.sheet import premultiplied, sheet_of
+from lampblack.composite.byte_layers import byte_layers_of, premultiplied
+from lampblack.composite.illumination import Illumination
 from lampblack.drawing import Drawing, Palette
 from lampblack.drawing.palette import Swatch
 from lampblack.render import LightPasses, Passes
@@ -115,18 +115,17 @@ def test_previews_agree_at_borders() -> None:
         rng.uniform(0.3, 0.9, (8, 8, 3)).astype(np.float32),
         rng.uniform(0, 0.4, (8, 8, 3)).astype(np.float32),
     )
-    whole = (0.0, 0.0, float(SIZE), float(SIZE))
     wanted = premultiplied(composite(drawing, Passes((), given), scene)).astype(int)
-    light = Light(given.diffuse, given.glossy, whole)
-    found = light_sheet(sheet_of(drawing), whole, light, scene)
+    found = composite(byte_layers_of(drawing), Passes((), given), scene).astype(int)
     assert np.abs(found - wanted).max() <= 4
 
 
 def test_enlarged_borders_are_smooth() -> None:
     drawing, scene = eye(), unlit_eye()
     zoom, whole = 4, (0.0, 0.0, float(SIZE), float(SIZE))
-    sheet = sheet_of(drawing).cut(whole, (zoom * SIZE, zoom * SIZE))
-    found = light_sheet(sheet, whole, Light(UNIT, NO_LIGHT, whole), scene).astype(int)
+    layers = byte_layers_of(drawing).cut(whole, (zoom * SIZE, zoom * SIZE))
+    light = Illumination([(np.ones(3, np.float32), UNIT, NO_LIGHT)])
+    found = composite(layers, light, scene, whole).astype(int)
     row = found[zoom * SIZE // 2, :, 1]
-    drawn = sheet.pixels[zoom * SIZE // 2, :, 1].astype(int)
+    drawn = layers.pixels[zoom * SIZE // 2, :, 1].astype(int)
     assert np.abs(np.diff(row)).max() <= 1.5 * np.abs(np.diff(drawn)).max()

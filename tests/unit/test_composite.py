@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from lampblack.colour import hex_linear, linear, srgb
-from lampblack.composite.composite import composite
+from lampblack.composite import composite
 from lampblack.composite.resample import Band, enlarge
 from lampblack.drawing.drawing import Drawing
 from lampblack.drawing.palette import Palette, Swatch
@@ -206,7 +206,7 @@ def test_bands_join_without_a_seam(monkeypatch: pytest.MonkeyPatch) -> None:
     passes = Passes((LightPasses(*small),), flat(0.2, size=(5, 4)))
     drawing, scene = make_drawing(BACKGROUNDS[3]), make_scene(LIGHT, floor=Floor(20))
     whole = composite(drawing, passes, scene)
-    module = import_module("lampblack.composite.composite")  # the function hides its name
+    module = import_module("lampblack.composite.float_kernel")
     monkeypatch.setattr(module, "BAND_PIXELS", 5 * WIDTH)
     assert (composite(drawing, passes, scene) == whole).all()
 

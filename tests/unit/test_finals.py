@@ -155,7 +155,7 @@ class FakeChild(RenderChild):
 @pytest.fixture
 def fake_child(monkeypatch: pytest.MonkeyPatch) -> FakeChild:
     child = FakeChild()
-    monkeypatch.setattr(Pipeline, "child", child)
+    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda niceness: child)
     return child
 
 

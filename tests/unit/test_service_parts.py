@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 
 from lampblack.camera import IDENTITY, scene_in_view
-from lampblack.composite.sheet import premultiplied
+from lampblack.composite.byte_layers import premultiplied
 from lampblack.drawing import DrawingPlanes
 from lampblack.errors import LampblackWarning
 from lampblack.pipeline import Pipeline
-from lampblack.preview import PreparedDrawing, Viewport, ViewRequest, prepare_quick
+from lampblack.prepared import PreparedDrawing
+from lampblack.preview import Viewport, ViewRequest
 from lampblack.preview.bounded import BoundedStore
-from lampblack.preview.contribution import LightContribution
+from lampblack.preview.contribution import LightContribution, preview_surface
 from lampblack.preview.light_store import AccumulatedLight, LightStore
 from lampblack.scene import Floor, Material, Scene, default_scene
 from lampblack.service.outbox import MAX_WAITING, Outbox
@@ -30,7 +31,7 @@ VIEWPORT = Viewport(1, 1, "lit", (0.0, 0.0, float(SIZE), float(SIZE)), (SIZE, SI
 
 @pytest.fixture(scope="module")
 def drawing(pipeline: Pipeline) -> PreparedDrawing:
-    return prepare_quick("ball", DrawingPlanes(draw_ball(SIZE)), pipeline)
+    return pipeline.prepare_quick(DrawingPlanes(draw_ball(SIZE)), "ball").compact()
 
 
 def test_the_least_lately_used_goes_first() -> None:
@@ -84,7 +85,7 @@ def test_warnings_are_heard_by_their_own_thread_alone() -> None:
 
 
 def test_a_quick_drawing_is_a_closed_dome_in_register(drawing: PreparedDrawing) -> None:
-    relief = drawing.surface(default_scene(SIZE, SIZE)).relief
+    relief = preview_surface(drawing, default_scene(SIZE, SIZE)).relief
     assert check_relief(relief) == []
     x, y, z = relief.vertices[: len(relief.vertices) // 2].T
     assert abs(x.mean() - SIZE / 2) < 1
@@ -101,8 +102,7 @@ def test_a_quick_drawing_knows_the_lines(pipeline: Pipeline) -> None:
     split = plain.copy()
     split[78:82, 30:130] = 0, 0, 0, 255
     one, other = (
-        prepare_quick("", DrawingPlanes(pixels), pipeline).normals.astype(int)
-        for pixels in (plain, split)
+        127.5 * pipeline.prepare_quick(DrawingPlanes(pixels)).normals for pixels in (plain, split)
     )
     assert one.shape == other.shape
     assert np.abs(one - other)[20:60, 20:60].mean() > 3
@@ -123,7 +123,7 @@ def test_the_camera_takes_the_scene_along() -> None:
 def test_a_change_invalidates_exactly_what_it_shapes(drawing: PreparedDrawing) -> None:
     scene = default_scene(SIZE, SIZE)
     scene = replace(scene, lights=(scene.lights[0], replace(scene.lights[0], x=100.0)))
-    colour = drawing.sheet.palette.swatches[0].colour
+    colour = drawing.layers.palette.swatches[0].colour
     shiny = {colour: Material(glossy=True, gloss=0.4)}
     scene = replace(scene, materials=shiny)
     store = LightStore()

@@ -10,7 +10,6 @@ from PIL import Image
 
 from lampblack.drawing import load_picture, save_picture
 from lampblack.finals.turntable import CLAY, PAPER, swing
-from lampblack.pipeline import Pipeline
 from lampblack.render import LightPasses, Passes, RenderChild, RenderRequest
 from support.command_line import Run, files
 from support.drawings import draw_ball
@@ -49,7 +48,7 @@ def two_sided(tmp_path: Path) -> Path:
 def test_the_relief_turns_with_its_colours(
     run: Run, tmp_path: Path, two_sided: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Pipeline, "child", Daylight())
+    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda niceness: Daylight())
     folder = tmp_path / "turned"
     done = run("turntable", two_sided, "-o", folder, "--pictures", 4, "--size", 96)
     assert done.code == 0, done.err
@@ -77,7 +76,7 @@ def test_the_relief_turns_with_its_colours(
 def test_a_gif_is_whole_and_loops(
     run: Run, tmp_path: Path, two_sided: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Pipeline, "child", Daylight())
+    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda niceness: Daylight())
     target = tmp_path / "ball.gif"
     assert run("turntable", two_sided, "-o", target, "--pictures", 8, "--size", 64).code == 0
     with Image.open(target) as image:

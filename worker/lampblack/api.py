@@ -67,7 +67,7 @@ def light(
 @functools.cache
 def _pipeline() -> Pipeline:
     pipeline = Pipeline(surface_cache())
-    atexit.register(pipeline.__exit__, None, None, None)
+    atexit.register(pipeline.close)
     return pipeline
 
 

@@ -1,56 +1,106 @@
-"""The one way from a drawing to a lit drawing; command line and window drive the same."""
+"""The one way from a drawing to a lit drawing: drawing -> surface -> passes -> picture.
+
+The command line, the farm and the live worker all go this way.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
 from types import TracebackType
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from PIL import Image
 
-from .cache import ArrayCache, digest
-from .choices import PipelineOptions
+from .cache import ArrayCache
+from .cache import digest as digest_of
+from .choices import DEFAULT_GRIDS, PipelineOptions
 from .composite import composite
-from .drawing import Drawing
+from .drawing import Drawing, DrawingPlanes
 from .normals.predict import NormalPredictor
 from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter
 from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
-from .render import (
-    QUALITIES,
-    Passes,
-    RenderChild,
-    Surface,
-    frame_request,
-    frame_surface,
-)
+from .prepared import PreparedDrawing, block_middles, character_box
+from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
 from .render.light_pass_cache import LightPassCache
 from .scene import Scene
-from .surface import Relief, build_relief, guided_filter, solve
+from .surface import guided_filter, solve
 
 MAX_SURFACE_PX = 2048
 """Longest side at which a surface is solved; larger pictures are lit at this size."""
+QUICK_PX = 500
+"""Longest side of a drawing that is prepared quickly."""
+
+Progress = Callable[[float], None]
+
+
+class Predictor(Protocol):
+    """Predicts normals; see ``NormalPredictor``."""
+
+    @property
+    def identity(self) -> str:
+        """A name for the weights."""
+
+    def predict(
+        self,
+        lines: NDArray[np.float32],
+        mask: NDArray[np.bool_],
+        *,
+        grids: int = DEFAULT_GRIDS,
+        quick: bool = False,
+        progress: Progress = lambda share: None,
+    ) -> NDArray[np.float32]:
+        """(H, W, 3) float32 normals; see ``NormalPredictor.predict``."""
+
+
+class Renderer(Protocol):
+    """Traces light; see ``RenderChild``."""
+
+    @property
+    def pid(self) -> int | None:
+        """Its process, None while there is none."""
+
+    def start(self) -> None:
+        """Begin to load, unless it runs."""
+
+    def render(self, request: RenderRequest) -> Passes:
+        """Trace every light of ``request``."""
+
+    def kill(self) -> None:
+        """End a render in progress, which then raises; any thread may call this."""
+
+    def close(self) -> None:
+        """End it; safe to call twice."""
 
 
 class Pipeline:
-    """Drawing -> normals -> surface -> passes -> picture, each kept while it holds.
+    """Drawing -> normals -> surface -> passes -> picture; each result is kept while it holds.
 
-    Use as a context manager: it owns the render child. Nothing is loaded before it is needed.
+    Use as a context manager: it owns the renderer. Nothing is loaded before it is needed.
 
     Args:
         cache: keeps normals and heights across runs.
         options: how surfaces are made.
-        niceness: how far the render child stands back for others, 0 to 19.
+        predictor: None is the shipped network.
+        renderer: None is Cycles in a child process.
+        niceness: of the child process, 0 to 19.
     """
 
     def __init__(
-        self, cache: ArrayCache, options: PipelineOptions | None = None, *, niceness: int = 0
+        self,
+        cache: ArrayCache,
+        options: PipelineOptions | None = None,
+        *,
+        predictor: Predictor | None = None,
+        renderer: Renderer | None = None,
+        niceness: int = 0,
     ) -> None:
         self._cache = cache
-        self._niceness = niceness
+        self._given_predictor = predictor
+        self.renderer: Renderer = renderer or RenderChild(niceness)
         self._light_passes = LightPassCache()
         self._temporal_filter = TemporalFilter()
         self.options = options or PipelineOptions()
@@ -64,42 +114,37 @@ class Pipeline:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if "child" in self.__dict__:
-            self.child.close()
+        self.close()
 
-    @cached_property
-    def _predictor(self) -> NormalPredictor:
-        return NormalPredictor()
-
-    @cached_property
-    def child(self) -> RenderChild:
-        """The renderer, started when first needed."""
-        return RenderChild(self._niceness)
+    def close(self) -> None:
+        """End the renderer and drop its light; the next render starts it again."""
+        self.renderer.close()
+        self._light_passes = LightPassCache()
 
     def interrupt(self) -> None:
-        """End a render at hand, which then raises; any thread may call this."""
-        if "child" in self.__dict__:
-            self.child.kill()
-
-    def rest(self) -> None:
-        """End the renderer and let go of its light; the next frame brings both back."""
-        self.child.close()
-        self._light_passes = LightPassCache()
+        """End a render in progress, which then raises; any thread may call this."""
+        self.renderer.kill()
 
     def warm_up(self) -> None:
         """Load the network and start the renderer before the first drawing comes."""
-        self.child.start()
+        self.renderer.start()
         _ = self._predictor
+
+    @property
+    def _predictor(self) -> Predictor:
+        if self._given_predictor is None:
+            self._given_predictor = NormalPredictor()
+        return self._given_predictor
 
     def normals(
         self,
         drawing: Drawing,
-        progress: Callable[[float], None] = lambda share: None,
+        progress: Progress = lambda share: None,
         neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
         """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask.
-        Smoothed over time with the ``neighbours``."""
-        key = digest(
+        With ``neighbours``, it is smoothed over time."""
+        key = digest_of(
             "normals", self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
         )
         predicted = self._cache.get(
@@ -113,35 +158,29 @@ class Pipeline:
         here = self._thumbnail(drawing, predicted)
         return self._temporal_filter.smooth(predicted, drawing.mask, here, neighbours.load())
 
-    def quick_normals(
-        self, lines: NDArray[np.float32], mask: NDArray[np.bool_]
-    ) -> NDArray[np.float32]:
-        """Normals as above, cheaply, for somebody who waits: not kept, and never steadied."""
-        return self._predictor.predict(lines, mask, quick=True)
-
     def thumbnail(self, drawing: Drawing) -> RegistrationThumbnail:
-        """What the drawings beside this one need of it; about 4 MB."""
+        """What neighbours in time need of the drawing, about 4 MB."""
         return self._thumbnail(drawing, self.normals(drawing))
 
     def _thumbnail(self, drawing: Drawing, normals: NDArray[np.float32]) -> RegistrationThumbnail:
-        name = digest(drawing.lines, drawing.mask, drawing.albedo, normals)
+        name = digest_of(drawing.lines, drawing.mask, drawing.albedo, normals)
         return make_thumbnail(name, drawing.lines, drawing.mask, drawing.albedo, normals)
 
     def height(
         self,
         drawing: Drawing,
-        progress: Callable[[float], None] = lambda share: None,
+        progress: Progress = lambda share: None,
         neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
         """(h, w) float32 height in canvas pixels; the drawing's size, or capped below it."""
         made_from = [self._predictor.identity, self.options, drawing.lines, drawing.mask]
         if neighbours is not None:
             made_from += [drawing.albedo, neighbours.keys]
-        key = digest("height", *made_from)
+        key = digest_of("height", *made_from)
         return self._cache.get(key, lambda: self._inflate(drawing, progress, neighbours))
 
     def _inflate(
-        self, drawing: Drawing, progress: Callable[[float], None], neighbours: LazyNeighbours | None
+        self, drawing: Drawing, progress: Progress, neighbours: LazyNeighbours | None
     ) -> NDArray[np.float32]:
         normals, mask = self.normals(drawing, progress, neighbours), drawing.mask
         step = surface_step(drawing)
@@ -150,58 +189,86 @@ class Pipeline:
         height = solve(normals, mask, solver=self.options.solver)
         return guided_filter(height, mask) * np.float32(step)
 
-    def relief(
+    def prepare(
         self,
         drawing: Drawing,
-        *,
-        relief_scale: float = 1.0,
-        stride: int = 1,
         neighbours: LazyNeighbours | None = None,
-    ) -> Relief:
-        """The figure's closed mesh in canvas pixels, one vertex every ``stride`` pixels."""
-        height, mask = self.height(drawing, neighbours=neighbours), drawing.mask
-        step = surface_step(drawing)
-        if step > 1:
-            mask = mask[step // 2 :: step, step // 2 :: step][: height.shape[0], : height.shape[1]]
-        relief = build_relief(
-            height / np.float32(step), mask, stride=stride, relief_scale=relief_scale
-        )
-        return replace(relief, vertices=relief.vertices * np.float32(step))
+        *,
+        digest: str = "",
+        progress: Progress = lambda share: None,
+        with_normals: bool = False,
+    ) -> PreparedDrawing:
+        """Prepare a drawing in full detail, as finals are lit.
 
-    def surface(
-        self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
-    ) -> Surface:
-        """What the lights of ``scene`` fall on: its relief, quality and materials count."""
-        relief = self.relief(
-            drawing,
-            relief_scale=scene.relief_scale,
-            stride=QUALITIES[scene.quality].mesh_stride,
-            neighbours=neighbours,
+        Args:
+            neighbours: smooth its normals over time.
+            digest: names the drawing.
+            progress: called with the share done, 0 to 1, of predicting normals.
+            with_normals: keep them in the result.
+        """
+        height = self.height(drawing, progress, neighbours)
+        normals = self.normals(drawing, progress, neighbours) if with_normals else None
+        step = surface_step(drawing)
+        return PreparedDrawing(
+            digest=digest,
+            detail="full",
+            size=drawing.size,
+            step=1,
+            layers=drawing,
+            scale=float(step),
+            height=height,
+            mask=block_middles(drawing.mask, step)[: height.shape[0], : height.shape[1]],
+            normals=normals,
+            box=character_box(drawing.mask, 1),
         )
-        return frame_surface(drawing, relief, scene)
+
+    def prepare_quick(self, planes: DrawingPlanes, digest: str = "") -> PreparedDrawing:
+        """Prepare a drawing within a fraction of a second: small, from normals of quick quality,
+        which are neither kept nor smoothed.
+
+        Raises:
+            DrawingError: there is nothing to light.
+        """
+        height, width = planes.pixels.shape[:2]
+        step = -(-max(width, height) // QUICK_PX)
+        drawing = planes.reduced(step).decompose()
+        lines, mask = _halved(drawing)
+        normals = self._predictor.predict(lines, mask, quick=True)
+        scale = width / mask.shape[1]
+        return PreparedDrawing(
+            digest=digest,
+            detail="quick",
+            size=(width, height),
+            step=step,
+            layers=drawing,
+            scale=scale,
+            height=solve(normals, mask) * np.float32(scale),
+            mask=mask,
+            normals=normals,
+            box=character_box(drawing.mask, step),
+        )
 
     def light(
-        self,
-        drawing: Drawing,
-        scene: Scene,
-        neighbours: LazyNeighbours | None = None,
-        surface: Surface | None = None,
+        self, prepared: PreparedDrawing, scene: Scene, surface: Surface | None = None
     ) -> Passes:
-        """Trace the lights of ``scene`` over the drawing's surface, but for those that the last
-        call traced over the very same drawing. A ``surface`` that is at hand is not made anew;
-        with one, a thread of its own may trace while another makes the next."""
+        """Trace the lights of ``scene``, but for those that the last call traced over the same
+        drawing. A ``surface`` that is there is not made again: with one, a thread of its own may
+        trace while another makes the next."""
 
         def trace(asked: Scene, ambient: bool) -> Passes:
-            found = surface or self.surface(drawing, asked, neighbours)
-            return self.child.render(replace(frame_request(drawing, found, asked), ambient=ambient))
+            stride = QUALITIES[asked.quality].mesh_stride
+            found = surface or prepared.surface(asked, stride)
+            request = replace(frame_request(prepared.size, found, asked), ambient=ambient)
+            return self.renderer.render(request)
 
-        return self._light_passes.complete(drawing, scene, trace)
+        return self._light_passes.complete(prepared.layers, scene, trace)
 
     def render(
         self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
     ) -> NDArray[np.uint8]:
         """(H, W, 4) uint8, sRGB, straight alpha: the drawing, lit."""
-        return composite(drawing, self.light(drawing, scene, neighbours), scene)
+        prepared = self.prepare(drawing, neighbours)
+        return composite(drawing, self.light(prepared, scene), scene)
 
 
 def surface_step(drawing: Drawing) -> int:
@@ -212,10 +279,21 @@ def surface_step(drawing: Drawing) -> int:
 def _shrink_normals(
     normals: NDArray[np.float32], mask: NDArray[np.bool_], step: int
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Average blocks of ``step`` pixels; a block belongs to the figure if its middle does."""
+    """Average blocks of ``step`` pixels; a block belongs to the character if its middle does."""
     rows, columns = mask.shape[0] // step, mask.shape[1] // step
     planes = torch.from_numpy(normals[: rows * step, : columns * step]).permute(2, 0, 1)
     pooled = torch.nn.functional.avg_pool2d(planes, step).permute(1, 2, 0).numpy()
-    middle = mask[step // 2 :: step, step // 2 :: step][:rows, :columns]
+    middle = block_middles(mask, step)[:rows, :columns]
     length = np.maximum(np.linalg.norm(pooled, axis=2, keepdims=True), 1e-6)
     return (pooled / length * middle[..., None]).astype(np.float32), middle
+
+
+def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """Lines and mask at half the size; of a character too fine for that, as they are."""
+    size = max(1, drawing.size[0] // 2), max(1, drawing.size[1] // 2)
+    cover = Image.fromarray(drawing.mask.astype(np.uint8) * 255)
+    mask = np.asarray(cover.resize(size, Image.Resampling.BOX)) > 96
+    if not mask.any():
+        return drawing.lines, drawing.mask
+    lines = Image.fromarray(drawing.lines).resize(size, Image.Resampling.BOX)
+    return np.asarray(lines), mask

@@ -65,8 +65,9 @@ class Shot(Protocol):
             DrawingError: it cannot be read.
         """
 
-    def place(self, scene: Scene, size: tuple[int, int]) -> Scene:
-        """``scene``, from the canvas to the pixels of a cel of ``size`` (width, height)."""
+    def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
+        """``scene``, from the canvas to the pixels of the frame's cel of ``size`` (width,
+        height)."""
 
     def camera(self, frame: ShotFrame) -> Affine:
         """From the cel's pixels to those of the finished frame."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ..cache import ArrayCache
-from ..finals.light import light_frames
+from ..finals.render_shot import render_shot
 from ..finals.resolve import resolve_job
 from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline
@@ -46,12 +46,12 @@ def bench_animation(source: Path, scene: Path | None) -> dict[str, float]:
         )
         opened = resolve_job(settings)
         drawings = len(by_drawing(opened.frames))
-        with Pipeline(ArrayCache(Path(folder)), opened.options) as pipeline:
-            pipeline.child = child = _TimedChild()
+        child = _TimedChild()
+        with Pipeline(ArrayCache(Path(folder)), opened.options, renderer=child) as pipeline:
             pipeline.warm_up()
             before = time.process_time(), processor_seconds(child.pid or 0)
             begin = time.perf_counter()
-            outcome = light_frames(opened, pipeline)
+            outcome = render_shot(opened, pipeline)
             seconds = time.perf_counter() - begin
             rendering = processor_seconds(child.pid or 0) - before[1]
             joining = time.process_time() - before[0]

@@ -14,7 +14,7 @@ from ..cache import ArrayCache
 from ..composite import composite
 from ..drawing import decompose_drawing
 from ..pipeline import Pipeline
-from ..render import frame_request
+from ..render import QUALITIES, frame_request
 from ..render.quality import REFERENCE
 from ..scene import Floor, Scene
 from .memory import peak_gib
@@ -41,9 +41,10 @@ def bench_final(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) ->
             pipeline.render(drawing, _moved(staged))
             figures[f"seconds_relight_{name}"] = round(time.perf_counter() - begin, 2)
             if reference:
-                surface = pipeline.surface(drawing, staged)
-                request = replace(frame_request(drawing, surface, staged), quality=REFERENCE)
-                truth = composite(drawing, pipeline.child.render(request), staged)
+                prepared = pipeline.prepare(drawing)
+                surface = prepared.surface(staged, QUALITIES[staged.quality].mesh_stride)
+                request = replace(frame_request(drawing.size, surface, staged), quality=REFERENCE)
+                truth = composite(drawing, pipeline.renderer.render(request), staged)
                 figures[f"rmse_final_{name}"] = round(_rmse(result, truth), 5)
     return figures | {"peak_memory_gib": peak_gib()}
 

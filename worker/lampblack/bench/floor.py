@@ -14,7 +14,8 @@ from ..cache import ArrayCache
 from ..camera import IDENTITY
 from ..drawing import DrawingPlanes
 from ..pipeline import Pipeline
-from ..preview import LightContribution, Viewport, ViewRequest, prepare_quick
+from ..preview import LightContribution, Viewport, ViewRequest
+from ..preview.contribution import preview_surface
 from ..preview.refinement import MOVING, REFINEMENT
 from ..render import RenderChild
 from ..scene import Scene
@@ -26,7 +27,7 @@ def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
     """Median ms of tracing one moved light, by picture size and samples, with and without the
     denoiser."""
     with TemporaryDirectory() as folder, Pipeline(ArrayCache(Path(folder))) as pipeline:
-        drawing = prepare_quick("", DrawingPlanes(picture), pipeline)
+        drawing = pipeline.prepare_quick(DrawingPlanes(picture))
     crop = (0.0, 0.0, float(picture.shape[1]), float(picture.shape[0]))
     viewport = Viewport(1, 1, "lit", crop, (500, 500))
     view = ViewRequest("", viewport, "", IDENTITY, 1, scene).resolve(drawing)
@@ -34,7 +35,7 @@ def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
     contribution = view.contributions[0]
     figures: dict[str, float] = {}
     with RenderChild() as child:
-        surface = drawing.surface(scene)
+        surface = preview_surface(drawing, scene)
 
         def trace(moved: LightContribution, *, develop: bool) -> float:
             begin = time.perf_counter()

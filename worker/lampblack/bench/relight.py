@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from ..composite.sheet import cut_picture, premultiplied
+from ..composite.byte_layers import cut_picture, premultiplied
 from ..drawing import load_picture
 from ..protocol import Crop, Done, Image, Render, Status, View
 from ..scene import AreaLight, Floor, Material, Scene

@@ -14,7 +14,7 @@ from .options import OPTIONS, with_settings
 from .outputs import check_suffix, keep_inputs
 
 if TYPE_CHECKING:
-    from ..finals.light import Outcome
+    from ..finals.render_shot import Outcome
     from ..finals.resolve import ResolvedJob
     from ..shot import ShotFrame
 
@@ -67,7 +67,7 @@ def render(
     from ..cache import surface_cache
     from ..farm.cluster import Certificates, light_on_cluster
     from ..finals.contact_sheet import save_contact_sheet
-    from ..finals.light import light_frames
+    from ..finals.render_shot import RenderListener, render_shot
     from ..finals.resolve import resolve_job
     from ..pipeline import Pipeline
 
@@ -77,17 +77,20 @@ def render(
     with progress_bar() as bar:
         task = bar.add_task("Lighting", total=len(job.frames))
 
-        def report(frame: ShotFrame, error: LampblackError | None) -> None:
-            bar.advance(task)
-            if error is not None:
-                print_error(error, f"{frame.name}: ")
+        class Report(RenderListener):
+            def on_frame(
+                self, frame: ShotFrame, error: LampblackError | None, *, kept: bool
+            ) -> None:
+                bar.advance(task)
+                if error is not None:
+                    print_error(error, f"{frame.name}: ")
 
         if cluster is not None:
             certificates = Certificates(tls_ca, tls_cert, tls_key)
-            outcome = light_on_cluster(settings, job, cluster, certificates, report)
+            outcome = light_on_cluster(settings, job, cluster, certificates, Report())
         else:
             with Pipeline(surface_cache(), job.options) as pipeline:
-                outcome = light_frames(job, pipeline, listener=report)
+                outcome = render_shot(job, pipeline, listener=Report())
     if contact_sheet is not None:
         save_contact_sheet(contact_sheet, job, outcome.done)
     _summarise(job, outcome)

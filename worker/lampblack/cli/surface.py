@@ -102,9 +102,8 @@ def mesh(
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
             neighbours = around.neighbours(frames[0])
-            relief = pipeline.relief(
-                drawing, relief_scale=relief_scale, stride=stride, neighbours=neighbours
-            )
+            prepared = pipeline.prepare(drawing, neighbours)
+            relief = prepared.relief(stride=stride, relief_scale=relief_scale)
             for frame in frames:
                 save_mesh(relief, targets.path(frame))
 

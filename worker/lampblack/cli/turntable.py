@@ -55,7 +55,7 @@ def turntable(
     keep_inputs(output, settings.inputs)
     shot = resolve_shot(settings)
     with Pipeline(surface_cache()) as pipeline, progress_bar() as bar:
-        pipeline.child.start()
+        pipeline.renderer.start()
         shown = first_frame(shot, pipeline)
         turned = turn_table(pipeline, shown.drawing, shown.scene, pictures, size, shown.neighbours)
         loop = list(bar.track(turned, total=pictures, description="Turning"))

@@ -1,5 +1,5 @@
-"""Compositing: the passes of light laid over the drawing."""
+"""Compositing: light over the drawing's own colours, under its own ink."""
 
-from .composite import composite, composite_unrounded
+from .composite import composite
 
-__all__ = ["composite", "composite_unrounded"]
+__all__ = ["composite"]

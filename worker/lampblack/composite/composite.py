@@ -1,216 +1,43 @@
-"""Light laid over the drawing: the same pure function for previews and for finals."""
+"""The composite: light over the drawing's own colours, under its own ink."""
 
 from __future__ import annotations
-
-from collections.abc import Iterator
-from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..colour import hex_linear, linear, srgb
-from ..drawing.drawing import Drawing
-from ..materials import MaterialTable
-from ..render.passes import LightPasses, Passes
+from ..drawing import Drawing
+from ..render.passes import Passes
 from ..scene import Scene
-from .borders import mixed_labels, swatch_albedos
-from .resample import Band, enlarge
-from .shadow import shade_background
-
-KNEE = 0.8
-BAND_PIXELS = 2_000_000
-ROUNDING = 1.5 / 255
-
-Floats = NDArray[np.float32]
-Source = tuple[Floats, LightPasses]
-"""The weight, (3,) scene-linear, and the passes of a light."""
+from .byte_kernel import composite_bytes
+from .byte_layers import ByteLayers
+from .float_kernel import composite_float
+from .illumination import Illumination
+from .resample import Box
 
 
-def composite(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.uint8]:
-    """The lit drawing, (H, W, 4) uint8 sRGB with straight alpha.
+def composite(
+    layers: Drawing | ByteLayers,
+    light: Passes | Illumination,
+    scene: Scene,
+    crop: Box | None = None,
+) -> NDArray[np.uint8]:
+    """The drawing, lit, (H, W, 4) uint8 sRGB, for finals and for previews.
 
-    ``passes`` may be smaller than the drawing; they cover the whole of it. The figure's fill
-    is lit in scene-linear light, its ink laid over that, and the figure over the background,
-    both in sRGB as the drawing program does it. Light of unit irradiance gives the drawing
-    back to within 1/255. What is brighter than white clips with its hue kept.
-    """
-    lit = np.zeros((*drawing.mask.shape, 4), np.uint8)
-    for band, rgba in _bands(drawing, passes, scene):
-        rounded = np.rint(rgba * 255).astype(np.uint8)
-        # A colour nobody sees is left as the artist left it.
-        lit[band.top : band.bottom] = np.where(
-            rounded[..., 3:] > 0,
-            rounded,
-            drawing.pixels[band.top : band.bottom] * np.array([1, 1, 1, 0], np.uint8),
-        )
-    return lit
-
-
-def composite_unrounded(drawing: Drawing, passes: Passes, scene: Scene) -> NDArray[np.float32]:
-    """The lit drawing before it is rounded, (H, W, 4) float32 sRGB in 0..1, straight alpha."""
-    lit = np.zeros((*drawing.mask.shape, 4), np.float32)
-    for band, rgba in _bands(drawing, passes, scene):
-        lit[band.top : band.bottom] = rgba
-    return lit
-
-
-def weigh(passes: Passes, scene: Scene) -> list[Source]:
-    """The sources that give light, with their colour and strength."""
-    weights = [hex_linear(light.colour) * np.float32(light.power) for light in scene.lights]
-    weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
-    return [
-        (weight, source)
-        for weight, source in zip(weights, (*passes.lights, passes.ambient), strict=True)
-        if weight.any()
-    ]
-
-
-def _bands(
-    drawing: Drawing, passes: Passes, scene: Scene
-) -> Iterator[tuple[Band, NDArray[np.float32]]]:
-    """Stretches of the lit drawing, (h, W, 4) in 0..1."""
-    sources = weigh(passes, scene)
-    width, height = drawing.size
-    rows = max(1, BAND_PIXELS // max(width, 1))
-    for top in range(0, height, rows):
-        band = Band(width, height, top, min(top + rows, height))
-        yield band, _composite_band(_rows(drawing, band), scene, sources, band)
-
-
-def _rows(drawing: Drawing, band: Band) -> Drawing:
-    """The part of ``drawing`` that lies in ``band``."""
-    arrays: dict[str, Any] = {
-        name: value[band.top : band.bottom]
-        for name, value in vars(drawing).items()
-        if isinstance(value, np.ndarray)
-    }
-    return replace(drawing, **arrays)
-
-
-def _composite_band(
-    drawing: Drawing, scene: Scene, sources: list[Source], band: Band
-) -> NDArray[np.float32]:
-    lit = _lay_ink(drawing, srgb(_lit_fill(drawing, scene, sources, band)))
-    drawn = _lay_ink(drawing, drawing.albedo)
-
-    pixels = drawing.pixels.astype(np.float32) / 255
-    coverage = drawing.coverage[..., None]
-    kept = pixels[..., 3:]
-    # Line art is drawn on clear film, yet its figure is solid: it is lit on white paper.
-    paper = np.where(coverage - kept > ROUNDING, coverage - kept, 0)
-    # What lies behind the figure: pixels = drawn over background, solved for the background.
-    behind = kept + paper - coverage
-    paint = kept * pixels[..., :3] + paper - coverage * drawn
-    if scene.floor is not None:
-        paint, behind = shade_background(paint, behind, coverage, sources, band)
-    alpha = coverage + behind
-    light = coverage * lit + paint
-    if paper.any():
-        light, alpha = _lift_off_paper(light, alpha, kept, paper > 0)
-    colour = light / np.maximum(alpha, 1e-6)
-    rgba: NDArray[np.float32] = np.clip(np.concatenate([colour, alpha], axis=2), 0, 1)
-    return rgba
-
-
-def _lift_off_paper(
-    light: NDArray[np.float32],
-    alpha: NDArray[np.float32],
-    kept: NDArray[np.float32],
-    papered: NDArray[np.bool_],
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Take the white paper away again: the least opaque picture that looks the same over
-    white, so that line art's shading lies over whatever the artist puts beneath.
+    The character's fill is lit in scene-linear light, its ink laid over that, and the character
+    over the background, both in sRGB as the drawing program does it. Light of unit irradiance
+    gives the drawing back to within 1/255. What is brighter than white is bent below white, its
+    hue kept.
 
     Args:
-        light: (H, W, 3) sRGB times ``alpha``. alpha, kept: (H, W, 1), with the paper and
-            as drawn. papered: (H, W, 1) where paper was put.
+        layers: a drawing, composited in floating point, with straight alpha in the result; or
+            byte layers, composited in one fast loop, premultiplied as screens take it. The two
+            agree to 4 levels.
+        light: may be of another size than the layers. Of passes, the weights come from ``scene``.
+        scene: its materials, and its lights' colours and powers.
+        crop: what of the drawing byte layers show, the drawing's pixels; None is all of it.
     """
-    over_white = light + 1 - alpha
-    least = np.maximum(kept, 1 - over_white.min(axis=2, keepdims=True))
-    lifted = np.where(papered, over_white - (1 - least), light)
-    return lifted.astype(np.float32), np.where(papered, least, alpha).astype(np.float32)
-
-
-def _lit_fill(
-    drawing: Drawing, scene: Scene, sources: list[Source], band: Band
-) -> NDArray[np.float32]:
-    """The fill under the lights, scene-linear (H, W, 3), at most 1."""
-    diffuse, glossy, unlit = figure_light(drawing, scene, sources, band)
-    return _roll_off(diffuse + glossy, linear(drawing.albedo)) + unlit
-
-
-def figure_light(
-    drawing: Drawing, scene: Scene, sources: list[Source], band: Band
-) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """Diffuse light, glossy light, and colours left as drawn, of the fill in ``band``;
-    scene-linear (H, W, 3), unbounded."""
-    albedo = linear(drawing.albedo)
-    materials = MaterialTable.of(scene, drawing.palette.colours)
-    none = np.zeros_like(albedo)
-    diffuse = _gather(sources, "diffuse", band) if materials.diffuse.any() else none
-    glossy = _gather(sources, "glossy", band) if materials.glossy.any() else none
-    other, share = mixed_labels(drawing.labels, albedo, drawing.palette)
-    blend = share > 0
-    theirs = np.minimum(
-        albedo[blend], share[blend, None] * swatch_albedos(drawing.palette)[other[blend]]
-    )
-    albedo[blend] -= theirs
-    found = _reflected(materials, drawing.labels, albedo, 1 - share[..., None], diffuse, glossy)
-    second = _reflected(
-        materials, other[blend], theirs, share[blend, None], diffuse[blend], glossy[blend]
-    )
-    for whole, part in zip(found, second, strict=True):
-        whole[blend] += part
-    return found
-
-
-def _reflected(
-    materials: MaterialTable,
-    labels: NDArray[np.int16],
-    albedo: Floats,
-    share: Floats,
-    diffuse: Floats,
-    glossy: Floats,
-) -> tuple[Floats, Floats, Floats]:
-    """Diffuse light, glossy light, and colours left as drawn, (..., 3) each, of parts of
-    pixels: ``albedo`` is weighted by their ``share`` (..., 1)."""
-    has_diffuse, has_glossy = (
-        kind[labels][..., None] for kind in (materials.diffuse, materials.glossy)
-    )
-    shine = materials.gloss[labels][..., None] * glossy
-    none = np.float32(0)
-    return (
-        np.where(has_diffuse, albedo * diffuse, none),
-        np.where(has_glossy, np.where(has_diffuse, share * shine, albedo * shine), none),
-        np.where(has_diffuse | has_glossy, none, albedo),
-    )
-
-
-def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Bring light brighter than white below white, hue kept, scene-linear (H, W, 3).
-
-    The brightest channel is let be up to ``KNEE``, and up to the drawn colour's own, so that
-    unit irradiance stays exact; from there it bends towards 1, since clipping alone leaves a
-    flat patch with a hard edge.
-    """
-    peak = lit.max(axis=2, keepdims=True)
-    knee = np.clip(drawn.max(axis=2, keepdims=True), KNEE, 1)
-    room = np.maximum(1 - knee, 1e-4)
-    over = np.maximum(peak - knee, 0)
-    bent = np.minimum(peak, knee) + room * -np.expm1(-over / room)
-    return np.asarray(lit * np.where(over > 0, bent / np.maximum(peak, KNEE), 1), np.float32)
-
-
-def _gather(sources: list[Source], kind: str, band: Band) -> NDArray[np.float32]:
-    """Sum one kind of pass over the sources, for the pixels of ``band``."""
-    total = np.zeros((band.bottom - band.top, band.width, 3), np.float32)
-    for weight, source in sources:
-        total += weight * enlarge(getattr(source, kind), band)
-    return total
-
-
-def _lay_ink(drawing: Drawing, fill: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The artist's line over the fill, sRGB (H, W, 3)."""
-    ink = drawing.ink[..., None]
-    return (fill + ink * (drawing.ink_colour - fill)).astype(np.float32)
+    illumination = light if isinstance(light, Illumination) else Illumination.of(light, scene)
+    if isinstance(layers, ByteLayers):
+        whole = (0.0, 0.0, float(layers.size[0]), float(layers.size[1]))
+        return composite_bytes(layers, illumination, scene, crop or whole)
+    return composite_float(layers, illumination, scene)

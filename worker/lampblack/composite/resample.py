@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+Box = tuple[float, float, float, float]
+"""x, y, width, height in pixels of a drawing."""
+
 
 @dataclass(frozen=True)
 class Band:

@@ -48,3 +48,13 @@ class Drawing:
     def size(self) -> tuple[int, int]:
         """(width, height) in pixels."""
         return self.pixels.shape[1], self.pixels.shape[0]
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of all layers."""
+        return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
+
+    def albedo_at(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> NDArray[np.float32]:
+        """(V, 3) sRGB in 0..1 of V pixels."""
+        found: NDArray[np.float32] = self.albedo[row, column]
+        return found

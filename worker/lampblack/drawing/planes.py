@@ -40,10 +40,15 @@ class DrawingPlanes:
 
         Raises, Warns: as ``decompose_drawing``.
         """
-        return decompose_drawing(
-            self.pixels,
-            mask=None if self.mask is None else _grey(self.mask),
-            ink=None if self.ink is None else _grey(np.invert(self.ink)),
+        mask, ink = self.pictures
+        return decompose_drawing(self.pixels, mask=mask, ink=ink)
+
+    @property
+    def pictures(self) -> tuple[Bytes | None, Bytes | None]:
+        """Mask and ink as pictures, (H, W, 4) uint8, as ``decompose_drawing`` takes them."""
+        return (
+            None if self.mask is None else _grey(self.mask),
+            None if self.ink is None else _grey(np.invert(self.ink)),
         )
 
     def reduced(self, step: int) -> DrawingPlanes:

@@ -20,7 +20,7 @@ import msgspec
 from ..cache import surface_cache
 from ..choices import PipelineOptions
 from ..errors import LampblackError, OutputError
-from ..finals.light import Listener, Outcome, light_frames
+from ..finals.render_shot import Outcome, RenderListener, render_shot
 from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline
@@ -43,7 +43,7 @@ def light_on_cluster(
     job: ResolvedJob,
     address: str,
     certificates: Certificates,
-    listener: Listener = lambda frame, error: None,
+    listener: RenderListener,
 ) -> Outcome:
     """Light the frames of ``settings`` on the cluster whose scheduler is at ``address``.
 
@@ -115,7 +115,7 @@ def light_group(
         job = _resolved(settings_json, run)
         pipeline = _warm_pipeline(job.options)
         wanted = [frame for frame in job.frames if frame.name in set(names)]
-        outcome = light_frames(job, pipeline, wanted)
+        outcome = render_shot(job, pipeline, wanted)
     failed = {frame.name: error for frame, error in outcome.failed}
     kept = {frame.name for frame in outcome.kept}
     unlit = {frame.name for frame in outcome.unlit}
@@ -145,13 +145,15 @@ def _resolved(settings_json: bytes, run: str) -> ResolvedJob:
 def _warm_pipeline(options: PipelineOptions) -> Pipeline:
     """The worker's one pipeline, kept between tasks; its renderer ends with the worker."""
     if _pipelines and _pipelines[0].options != options:
-        _pipelines.pop().rest()
+        _pipelines.pop().close()
     if not _pipelines:
         _pipelines.append(Pipeline(surface_cache(), options))
     return _pipelines[0]
 
 
-def _take_in(outcome: Outcome, group: list[ShotFrame], future: Any, listener: Listener) -> None:
+def _take_in(
+    outcome: Outcome, group: list[ShotFrame], future: Any, listener: RenderListener
+) -> None:
     by_name = {frame.name: frame for frame in group}
     try:
         report = future.result()
@@ -168,14 +170,14 @@ def _take_in(outcome: Outcome, group: list[ShotFrame], future: Any, listener: Li
             kind = OutputError if became == "full" else LampblackError
             failure = kind(*words)
             outcome.failed.append((frame, failure))
-            listener(frame, failure)
+            listener.on_frame(frame, failure, kept=False)
             continue
         outcome.done.append(frame)
         if became == "kept":
             outcome.kept.append(frame)
         elif became == "unlit":
             outcome.unlit.append(frame)
-        listener(frame, None)
+        listener.on_frame(frame, None, kept=became == "kept")
 
 
 def _security(kind: Any, certificates: Certificates) -> Any:

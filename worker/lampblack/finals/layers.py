@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from ..camera import look_through
 from ..colour import linear
-from ..composite.composite import composite_unrounded, figure_light, weigh
-from ..composite.resample import Band
-from ..composite.shadow import floor_ratio
+from ..composite.float_kernel import character_light, composite_unrounded
+from ..composite.illumination import Illumination, weigh
+from ..composite.resample import Band, enlarge
 from ..drawing import Drawing
+from ..prepared import PreparedDrawing
 from ..render import Passes
 from ..scene import MAX_LIGHTS, Scene
 from ..shot import Shot, ShotFrame
@@ -44,19 +45,17 @@ class Layers:
     depth: Floats
 
 
-def make_layers(
-    drawing: Drawing, scene: Scene, passes: Passes, normals: Floats, height: Floats
-) -> Layers:
-    """The layers of a drawing lit by ``passes``.
-
-    Args:
-        normals: (H, W, 3). height: (h, w), the drawing's size, or a whole fraction of it.
-    """
+def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Layers:
+    """The layers of a drawing, prepared in full with its normals, lit by ``passes``."""
+    drawing = prepared.layers
+    assert isinstance(drawing, Drawing)
+    assert prepared.normals is not None
     columns, rows = drawing.size
     band = Band(columns, rows, 0, rows)
     cover = drawing.coverage[..., None]
     sources = weigh(passes, scene)
-    diffuse, glossy, unlit = figure_light(drawing, scene, sources, band)
+    illumination = Illumination.sum_of(sources)
+    diffuse, glossy, unlit = character_light(drawing, scene, illumination, band)
     colour = {
         "diffuse": cover * diffuse,
         "glossy": cover * glossy,
@@ -70,15 +69,17 @@ def make_layers(
     for name, source in zip(present, (*passes.lights, passes.ambient), strict=True):
         own = [(weight, light) for weight, light in sources if light is source]
         if own:
-            colour[name] = cover * sum(figure_light(drawing, scene, own, band)[:2])
+            light = character_light(drawing, scene, Illumination.sum_of(own), band)
+            colour[name] = cover * sum(light[:2])
     line = drawing.ink[..., None] * cover
+    ratio = illumination.floor_ratio
     return Layers(
-        lit=composite_unrounded(drawing, passes, scene),
+        lit=composite_unrounded(drawing, illumination, scene),
         colour=colour,
-        shadow=floor_ratio(sources, band),
+        shadow=np.ones_like(diffuse) if ratio is None else enlarge(ratio, band),
         ink=np.concatenate([linear(drawing.ink_colour) * line, line], axis=2),
-        normal=normals,
-        depth=_spread(height, (rows, columns)) * drawing.mask[..., None],
+        normal=prepared.normals.astype(np.float32, copy=False),
+        depth=_spread(prepared.height, (rows, columns)) * drawing.mask[..., None],
     )
 
 

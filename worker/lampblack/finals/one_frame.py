@@ -38,5 +38,5 @@ def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     drawing = neighbour_loader.drawing(frame)
     canvas = resolved.shot.canvas or Canvas(*drawing.size)
     scene = scene_at(resolved.overrides.scene(canvas), frame.number or 1)
-    placed = resolved.shot.place(scene, drawing.size)
+    placed = resolved.shot.place(frame, scene, drawing.size)
     return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame))

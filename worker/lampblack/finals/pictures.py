@@ -40,7 +40,7 @@ class PictureShot:
     def cel(self, frame: ShotFrame) -> Cel:
         return Cel(load_picture(self._paths[frame.name]), self.mask, self.ink)
 
-    def place(self, scene: Scene, size: tuple[int, int]) -> Scene:
+    def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
         return replace(scene, canvas=Canvas(*size))
 
     def camera(self, frame: ShotFrame) -> Affine:

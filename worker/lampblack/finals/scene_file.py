@@ -16,7 +16,7 @@ from ..drawing import Drawing
 from ..materials import MaterialTable
 from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
-from ..render import frame_request, vertex_pixels
+from ..render import QUALITIES, RenderChild, frame_request, vertex_pixels
 from ..scene import Scene
 from ..surface import Relief
 
@@ -39,19 +39,20 @@ def save_scene(
     Raises:
         OutputError: it cannot be written. RenderError: Blender failed.
     """
-    surface = pipeline.surface(drawing, scene, neighbours)
+    prepared = pipeline.prepare(drawing, neighbours)
+    surface = prepared.surface(scene, QUALITIES[scene.quality].mesh_stride)
     relief = surface.relief
     if path.suffix.lower() == ".glb":
         _save_glb(drawing, relief, scene, path)
         return
-    request = frame_request(drawing, surface, scene)
+    request = frame_request(drawing.size, surface, scene)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
     materials = MaterialTable.of(scene, drawing.palette.colours)
     worn = drawing.labels[vertex_pixels(drawing.labels, relief.vertices)]
     diffuse = materials.diffuse[worn].astype(np.float32)
     unlit = (~(materials.diffuse | materials.glossy))[worn].astype(np.float32)
-    with atomic_path(path) as temporary:
-        pipeline.child.save_blend(request, scene.ambient, ink, diffuse, unlit, temporary.resolve())
+    with atomic_path(path) as temporary, RenderChild() as child:
+        child.save_blend(request, scene.ambient, ink, diffuse, unlit, temporary.resolve())
 
 
 def _save_glb(drawing: Drawing, relief: Relief, scene: Scene, path: Path) -> None:

@@ -16,7 +16,7 @@ from ..composite import composite
 from ..drawing import Drawing
 from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
-from ..render import LightPasses, Passes, frame_request, frame_surface
+from ..render import LightPasses, Passes, frame_request
 from ..scene import Material, Scene
 from ..surface import Relief, visible_faces
 
@@ -60,10 +60,9 @@ def turn_table(
     scene = replace(scene, quality="medium", floor=None)
     long_side = max(int(np.ptp(np.flatnonzero(drawing.mask.any(axis=k)))) + 1 for k in (0, 1))
     stride = max(1, round(long_side / size))
-    relief = pipeline.relief(
-        drawing, relief_scale=scene.relief_scale, stride=stride, neighbours=neighbours
-    )
-    surface = frame_surface(drawing, relief, scene)
+    prepared = pipeline.prepare(drawing, neighbours)
+    relief = prepared.relief(stride=stride, relief_scale=scene.relief_scale)
+    surface = prepared.with_materials(relief, scene)
     middle = _middle(relief)
     turns = [_turned(relief.vertices, middle, angle) for angle in (-FARTHEST, 0, FARTHEST)]
     width, height = (2 * _MARGIN * max(float(abs(t[:, k]).max()) for t in turns) for k in (0, 1))
@@ -79,8 +78,8 @@ def turn_table(
             vertices[:, :2] += np.array([columns, rows], np.float32) / 2
             turned = Relief(vertices, relief.faces)
             view = _seen(drawing, relief, turned, (rows, columns))
-            request = frame_request(view, replace(surface, relief=turned), placed)
-            made[angle] = _picture(view, pipeline.child.render(request), placed)
+            request = frame_request(view.size, replace(surface, relief=turned), placed)
+            made[angle] = _picture(view, pipeline.renderer.render(request), placed)
         yield made[angle]
 
 

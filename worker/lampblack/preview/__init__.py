@@ -3,7 +3,6 @@
 from .contribution import LightContribution
 from .live import LivePreview
 from .painter import PreviewImage
-from .prepared import PreparedDrawing, prepare_quick
 from .request import Viewport, ViewRequest
 from .state import PreviewState, RendererState
 from .tracer import PreviewRenderer
@@ -11,12 +10,10 @@ from .tracer import PreviewRenderer
 __all__ = [
     "LightContribution",
     "LivePreview",
-    "PreparedDrawing",
     "PreviewImage",
     "PreviewRenderer",
     "PreviewState",
     "RendererState",
     "ViewRequest",
     "Viewport",
-    "prepare_quick",
 ]

@@ -10,12 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..colour import hex_linear
-from ..composite.sheet import Box
+from ..composite.resample import Box
 from ..materials import MaterialTable
-from ..render import Expose
+from ..prepared import PreparedDrawing
+from ..render import Expose, Surface
 from ..scene import AreaLight, Canvas, Floor, Scene
-from .prepared import PreparedDrawing
 from .refinement import REFINEMENT, RefinementLevel
+
+VERTICES = 250
+"""Vertices along the longer side of a preview's relief."""
 
 Floats = NDArray[np.float32]
 
@@ -94,8 +97,13 @@ def contributions_of(
     return tuple(found)
 
 
+def preview_surface(drawing: PreparedDrawing, scene: Scene) -> Surface:
+    """The surface of ``drawing`` as fine as previews need it."""
+    return drawing.surface(scene, max(1, round(max(drawing.mask.shape) / VERTICES)))
+
+
 def surface_key(scene: Scene, drawing: PreparedDrawing) -> Hashable:
-    """All that shapes ``drawing.surface(scene)``."""
+    """All that shapes ``preview_surface(drawing, scene)``."""
     materials = _materials(scene, drawing)
     bare = replace(scene, canvas=Canvas(1, 1), floor=None).render_key(
         materials=False, sampling=False
@@ -118,4 +126,4 @@ def character_area(drawing: PreparedDrawing, crop: Box) -> Box:
 
 
 def _materials(scene: Scene, drawing: PreparedDrawing) -> MaterialTable:
-    return MaterialTable.of(scene, drawing.sheet.palette.colours)
+    return MaterialTable.of(scene, drawing.layers.palette.colours)

@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..composite.light_sheet import Light, add_up, light_sheet, warm_up
-from ..composite.shadow import FAINT
-from ..composite.sheet import Sheet, cut_picture
+from ..composite import composite
+from ..composite.byte_kernel import warm_up
+from ..composite.byte_layers import ByteLayers, cut_picture
+from ..composite.illumination import Illumination
+from ..prepared import PreparedDrawing
 from .bounded import MIB, BoundedStore
 from .light_store import AccumulatedLight
-from .prepared import PreparedDrawing
 from .refinement import CONVERGED
 from .request import ResolvedView, ViewRequest
 from .state import PreviewState
@@ -64,7 +65,9 @@ class Painter:
     report: Callable[[str, Exception], None]
     _offers: dict[str, dict[tuple[int, int], ViewRequest]] = field(default_factory=dict)
     _shown: dict[str, _Shown] = field(default_factory=dict)
-    _sheets: BoundedStore[Hashable, Sheet] = field(default_factory=lambda: BoundedStore(128 * MIB))
+    _layers: BoundedStore[Hashable, ByteLayers] = field(
+        default_factory=lambda: BoundedStore(128 * MIB)
+    )
     _condition: threading.Condition = field(default_factory=threading.Condition)
     _closing: bool = False
 
@@ -110,17 +113,19 @@ class Painter:
             self.report(session, error)
         return True
 
-    def prepare(self, request: ViewRequest, drawing: PreparedDrawing) -> Sheet:
+    def prepare(self, request: ViewRequest, drawing: PreparedDrawing) -> ByteLayers:
         """The drawing's layers at the size and crop of the viewport, kept for the next time."""
         crop, size = request.viewport.crop, request.viewport.size
         key = (drawing.digest, drawing.detail, crop, size)
-        sheet = self._sheets.get(key)
-        if sheet is None:
+        layers = self._layers.get(key)
+        if layers is None:
             x, y, width, height = crop
             step = drawing.step
-            sheet = drawing.sheet.cut((x / step, y / step, width / step, height / step), size)
-            self._sheets.put(key, sheet, sheet.nbytes)
-        return sheet
+            whole = drawing.compact().layers
+            assert isinstance(whole, ByteLayers)
+            layers = whole.cut((x / step, y / step, width / step, height / step), size)
+            self._layers.put(key, layers, layers.nbytes)
+        return layers
 
     def _paint(self, request: ViewRequest) -> bool:
         """Paint and deliver, unless that would show something older or nothing new; False if
@@ -186,17 +191,13 @@ class Painter:
             (contribution.subject, contribution.weight, light)
             for contribution, light in zip(view.contributions, lights, strict=True)
         ]
-        character = [(weight, light) for subject, weight, light in pairs if subject == "figure"]
-        ground = [(weight, light) for subject, weight, light in pairs if subject == "floor"]
-        light = Light(
-            diffuse=add_up([(weight, light.first) for weight, light in character]),
-            glossy=add_up([(weight, light.second) for weight, light in character]),
-            figure=view.character,
-            floor=_shadow(ground),
-            ground=(0.0, 0.0, float(drawing.size[0]), float(drawing.size[1])),
+        light = Illumination(
+            character=[(w, light.first, light.second) for s, w, light in pairs if s == "figure"],
+            floor=[(w, light.first, light.second) for s, w, light in pairs if s == "floor"],
+            character_area=view.character,
+            floor_area=(0.0, 0.0, float(drawing.size[0]), float(drawing.size[1])),
         )
-        sheet = self.prepare(request, drawing)
-        return light_sheet(sheet, request.viewport.crop, light, view.scene)
+        return composite(self.prepare(request, drawing), light, view.scene, request.viewport.crop)
 
 
 def _is_full(drawing: PreparedDrawing) -> bool:
@@ -207,21 +208,11 @@ def _is_shown(request: ViewRequest, content: Hashable, shown: _Shown) -> bool:
     return (shown.order, shown.digest, shown.content) == (request.order, request.digest, content)
 
 
-def _shadow(
-    ground: Sequence[tuple[NDArray[np.float32], AccumulatedLight]],
-) -> NDArray[np.float32] | None:
-    """The floor's light with the character over that without, all contributions together."""
-    if not ground:
-        return None
-    cast = add_up([(weight, light.first) for weight, light in ground])
-    free = add_up([(weight, light.second) for weight, light in ground])
-    return np.asarray((cast + FAINT) / (free + FAINT))
-
-
 def _view(drawing: PreparedDrawing, request: ViewRequest) -> Picture:
     """The drawing's normals or relief in the viewport's crop, opaque in the character."""
     if request.viewport.show == "normals":
-        colour = drawing.normals
+        assert drawing.normals is not None
+        colour = np.rint((drawing.normals.astype(np.float32) + 1) * 127.5).astype(np.uint8)
     else:
         low, high = float(drawing.height.min()), float(drawing.height.max())
         grey = np.clip((drawing.height - low) / max(high - low, 1e-6), 0, 1) * 255

@@ -11,9 +11,10 @@ import numpy as np
 from ..drawing import Drawing, DrawingPlanes, Palette
 from ..errors import LampblackError
 from ..pipeline import Pipeline
+from ..prepared import PreparedDrawing
 from ..scene import default_scene
 from ..warning_collector import collect_warnings
-from .prepared import PreparedDrawing, prepare_full, prepare_quick
+from .contribution import preview_surface
 from .state import DrawingKey, PreviewState
 
 
@@ -56,7 +57,7 @@ class Preparer:
         try:
             if detail == "quick":
                 with collect_warnings():
-                    prepared = prepare_quick(digest, planes, self.pipeline)
+                    prepared = self.pipeline.prepare_quick(planes, digest).compact()
             else:
                 prepared = self._prepare_full(key, planes)
         except _SupersededError:
@@ -75,7 +76,7 @@ class Preparer:
         disk = np.zeros((64, 64, 4), np.uint8)
         disk[12:52, 12:52] = 120, 120, 120, 255
         with collect_warnings(), suppress(LampblackError):
-            prepare_quick("", DrawingPlanes(disk), self.pipeline).surface(default_scene(64, 64))
+            preview_surface(self.pipeline.prepare_quick(DrawingPlanes(disk)), default_scene(64, 64))
 
     def _next(self) -> DrawingKey | None:
         """The most urgent drawing that is missing and can be prepared."""
@@ -102,7 +103,8 @@ class Preparer:
 
         drawing = self._decomposed[1]
         give_way(0)
-        self.pipeline.height(drawing, give_way)
-        prepared = prepare_full(digest, drawing, self.pipeline)
+        prepared = self.pipeline.prepare(
+            drawing, digest=digest, progress=give_way, with_normals=True
+        ).compact()
         self._decomposed = None
         return prepared

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ..camera import Affine, scene_in_view
-from ..composite.sheet import Box
+from ..composite.resample import Box
+from ..prepared import Detail, PreparedDrawing
 from ..scene import Scene
 from .contribution import LightContribution, character_area, contributions_of
-from .prepared import Detail, PreparedDrawing
 
 Show = Literal["lit", "normals", "relief"]
 

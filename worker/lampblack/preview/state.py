@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from typing import Literal
 
 from ..drawing import DrawingPlanes
+from ..prepared import Detail, PreparedDrawing
 from .bounded import MIB, BoundedStore
 from .light_store import LightStore
-from .prepared import Detail, PreparedDrawing
 from .request import ViewRequest
 
 RendererState = Literal["off", "starting", "idle", "working", "restarting"]

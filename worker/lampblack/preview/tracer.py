@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from ..errors import RenderError, RenderRestartedError
+from ..prepared import PreparedDrawing
 from ..render import Expose, Surface
 from ..scene import AreaLight, Canvas, Scene
 from ..surface import Relief
-from .contribution import LightContribution, surface_key
+from .contribution import LightContribution, preview_surface, surface_key
 from .light_store import AccumulatedLight
 from .painter import Painter
-from .prepared import PreparedDrawing
 from .refinement import (
     CONVERGED,
     FIRST_AMBIENT,
@@ -239,7 +239,7 @@ class Tracer:
     def _surface(self, drawing: PreparedDrawing, scene: Scene) -> Surface:
         key = surface_key(scene, drawing)
         if key not in self._surfaces:
-            self._surfaces[key] = drawing.surface(scene)
+            self._surfaces[key] = preview_surface(drawing, scene)
             if len(self._surfaces) > MAX_SURFACES:
                 self._surfaces.popitem(last=False)
         self._surfaces.move_to_end(key)

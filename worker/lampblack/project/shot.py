@@ -72,7 +72,7 @@ class ProjectShot:
         line = self._painter.paint(self._stack.line, number) if self._stack.line else None
         return Cel(pixels, ink=line if line is not None and line[..., 3].any() else None)
 
-    def place(self, scene: Scene, size: tuple[int, int]) -> Scene:
+    def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
         scene = replace(scene, canvas=self.canvas)
         if self.region == Region(0, 0, self.canvas.width, self.canvas.height):
             return scene

@@ -35,7 +35,7 @@ class Render(Message, frozen=True, kw_only=True):
     ]
     quality: QualityName = "final"
     keep_finished: Annotated[
-        bool, Meta(description="leave frames whose file is already there and whole")
+        bool, Meta(description="leave frames whose file is there, whole and up to date")
     ] = False
 
 

@@ -8,7 +8,6 @@ from .request import (
     Surface,
     assign_materials,
     frame_request,
-    frame_surface,
     vertex_pixels,
 )
 from .wire import Expose
@@ -25,6 +24,5 @@ __all__ = [
     "Surface",
     "assign_materials",
     "frame_request",
-    "frame_surface",
     "vertex_pixels",
 ]

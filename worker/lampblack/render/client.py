@@ -40,7 +40,7 @@ class RenderChild:
 
     Example:
         >>> with RenderChild() as child:
-        ...     passes = child.render(frame_request(drawing, relief, scene))
+        ...     passes = child.render(frame_request(drawing.size, surface, scene))
     """
 
     def __init__(self, niceness: int = 0) -> None:

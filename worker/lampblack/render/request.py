@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ..colour import linear
-from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
 from ..scene import AreaLight, Canvas, Floor, Scene
@@ -63,18 +62,11 @@ class RenderRequest:
         return self.rect or (0.0, 0.0, float(self.canvas.width), float(self.canvas.height))
 
 
-def frame_surface(drawing: Drawing, relief: Relief, scene: Scene) -> Surface:
-    """The relief of a frame in the materials of ``scene``, whatever its lights."""
-    place = vertex_pixels(drawing.labels, relief.vertices)
-    return assign_materials(
-        relief, drawing.albedo[place], drawing.labels[place], drawing.palette, scene
-    )
-
-
-def frame_request(drawing: Drawing, surface: Surface, scene: Scene) -> RenderRequest:
-    """Ask for all the light of ``scene`` on one frame, of the canvas's size or another."""
-    width, height = drawing.size
-    whole = (scene.canvas.width, scene.canvas.height) == drawing.size
+def frame_request(size: tuple[int, int], surface: Surface, scene: Scene) -> RenderRequest:
+    """Ask for all the light of ``scene`` on a drawing of ``size`` (width, height), which may be
+    another than the canvas's."""
+    width, height = size
+    whole = (scene.canvas.width, scene.canvas.height) == size
     return RenderRequest(
         surface=surface,
         canvas=scene.canvas,

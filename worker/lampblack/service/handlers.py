@@ -7,7 +7,6 @@ from typing import Any
 
 from .. import __version__
 from ..drawing import DrawingPlanes, parse_frames
-from ..normals.temporal.neighbours import REACH, neighbour_keys
 from ..preview import Viewport
 from ..protocol import (
     MINOR,
@@ -28,7 +27,7 @@ from ..protocol import (
     error_message,
 )
 from ..protocol.fields import Message
-from .job import Job, job_scene
+from .jobs import Job
 from .service import Service
 from .session import FrameContent, Session
 
@@ -130,7 +129,7 @@ def _render(service: Service, session: Session, message: Render, planes: Planes)
         service.send(session, stale)
         return
     numbers = parse_frames(message.frames)
-    known = [(number, session.frames[number]) for number in numbers if number in session.frames]
+    known = [number for number in numbers if number in session.frames]
     if session.scene is None:
         service.send(session, error_message(ErrorCode.NO_SCENE, request=message.request))
     elif not known:
@@ -139,17 +138,8 @@ def _render(service: Service, session: Session, message: Render, planes: Planes)
             error_message(ErrorCode.UNKNOWN_FRAME, request=message.request, frame=numbers[0]),
         )
     else:
-        job = Job(
-            session.name,
-            message.request,
-            known,
-            job_scene(session.scene, message.quality),
-            message.output,
-            message.keep_finished,
-            neighbour_keys(
-                [content.digest for _, content in sorted(session.frames.items())], REACH
-            ),
-        )
+        contents = dict(session.frames)
+        job = Job(session.name, message, session.scene, contents, known)
         if not service.jobs.submit(job):
             service.send(session, error_message(ErrorCode.TOO_MANY_JOBS, request=message.request))
 

@@ -151,7 +151,7 @@ class Planner:
             palette, failure = self._palettes.get(digest), self.state.failure(digest)
             drawing = self.state.drawings.get((digest, "full"))
             if palette is None and drawing is not None:
-                palette = drawing.sheet.palette
+                palette = drawing.layers.palette
             if failure is not None:
                 self.send(session, fault_message(failure, request=request, frame=frame))
             elif palette is not None:

@@ -15,7 +15,7 @@ from ..pipeline import Pipeline
 from ..render import RenderChild
 from ..warning_collector import install_warning_collector
 from .endpoint import connection_file, private_endpoint
-from .job import NICENESS
+from .jobs import NICENESS
 from .server import Server
 from .service import Service
 from .socket import RouterSocket

@@ -13,7 +13,7 @@ from ..preview import LivePreview, PreviewImage, PreviewRenderer
 from ..protocol import Bye, Crop, Image, Pixels, Role, Status, encode
 from ..protocol.fields import Message
 from .faults import fault_message
-from .job import Jobs
+from .jobs import Jobs
 from .memory import resident_bytes
 from .outbox import Frames
 from .planner import Planner

@@ -8,7 +8,7 @@ from contextlib import closing
 
 import pytest
 
-from lampblack.finals.ahead import ahead
+from lampblack.finals.prefetch import prefetch
 
 
 def test_items_keep_their_order_and_only_one_waits() -> None:
@@ -20,7 +20,7 @@ def test_items_keep_their_order_and_only_one_waits() -> None:
             yield number
 
     taken = []
-    for number in ahead(items()):
+    for number in prefetch(items()):
         taken.append(number)
         assert len(made) <= len(taken) + 1
     assert taken == made == list(range(20))
@@ -31,7 +31,7 @@ def test_an_error_comes_up_where_the_item_is_wanted() -> None:
         yield 1
         raise KeyError("two")
 
-    stream = ahead(items())
+    stream = prefetch(items())
     assert next(stream) == 1
     with pytest.raises(KeyError, match="two"):
         next(stream)
@@ -56,7 +56,7 @@ def test_an_early_end_cuts_short_what_is_being_made_and_closes_every_stage() -> 
             finally:
                 closed.append("second")
 
-    stream = ahead(second(ahead(first())), let_go.set)
+    stream = prefetch(second(prefetch(first())), let_go.set)
     assert next(stream) == 0
     stream.close()
     assert closed == ["second", "first"]

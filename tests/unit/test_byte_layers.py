@@ -8,14 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lampblack.colour import hex_linear
 from lampblack.composite import composite
-from lampblack.composite.light_sheet import Light, add_up, light_sheet
-from lampblack.composite.shadow import FAINT
-from lampblack.composite.sheet import premultiplied, sheet_of
+from lampblack.composite.byte_layers import byte_layers_of, premultiplied
+from lampblack.composite.illumination import Illumination
 from lampblack.drawing import decompose_drawing
 from lampblack.render import LightPasses, Passes
-from lampblack.scene import Floor, Material, Scene, default_scene
+from lampblack.scene import Floor, Material, default_scene
 from support.drawings import draw_ball
 
 SIZE = 96
@@ -30,16 +28,6 @@ def smooth(seed: int, low: float, high: float) -> NDArray[np.float32]:
 def passes(floor: bool) -> LightPasses:
     cast = (smooth(3, 0.1, 0.6), smooth(4, 0.6, 0.9)) if floor else (None, None)
     return LightPasses(smooth(1, 0, 2), smooth(2, 0, 1.5), *cast)
-
-
-def all_together(scene: Scene, given: LightPasses) -> Light:
-    weight = hex_linear(scene.lights[0].colour) * np.float32(scene.lights[0].power)
-    ratio = None
-    if given.floor is not None and given.open_floor is not None:
-        ratio = (weight * given.floor + FAINT) / (weight * given.open_floor + FAINT)
-    return Light(
-        add_up([(weight, given.diffuse)]), add_up([(weight, given.glossy)]), WHOLE, ratio, WHOLE
-    )
 
 
 @pytest.mark.parametrize("floor", [False, True])
@@ -65,8 +53,9 @@ def test_agrees_with_the_composite(
     drawing = decompose_drawing(picture)
     given = passes(floor)
     dark = LightPasses(np.zeros((1, 1, 3), np.float32), np.zeros((1, 1, 3), np.float32))
-    wanted = premultiplied(composite(drawing, Passes((given,), dark), scene))
-    found = light_sheet(sheet_of(drawing), WHOLE, all_together(scene, given), scene)
+    light = Passes((given,), dark)
+    wanted = premultiplied(composite(drawing, light, scene))
+    found = composite(byte_layers_of(drawing), light, scene)
     apart = np.abs(found.astype(int) - wanted)
     assert apart.max() <= 4
     assert apart.mean() < 0.6
@@ -84,8 +73,9 @@ def test_clear_line_art_agrees_too(floor: bool) -> None:
     ambient = replace(scene.ambient, strength=0.0)
     scene = replace(scene, lights=(dim,), ambient=ambient, floor=Floor(80.0) if floor else None)
     dark = LightPasses(np.zeros((1, 1, 3), np.float32), np.zeros((1, 1, 3), np.float32))
-    wanted = premultiplied(composite(drawing, Passes((given,), dark), scene))
-    found = light_sheet(sheet_of(drawing), WHOLE, all_together(scene, given), scene)
+    light = Passes((given,), dark)
+    wanted = premultiplied(composite(drawing, light, scene))
+    found = composite(byte_layers_of(drawing), light, scene)
     assert wanted[48, 48, 3] > 10
     assert np.abs(found.astype(int) - wanted).max() <= 4
 
@@ -93,23 +83,24 @@ def test_clear_line_art_agrees_too(floor: bool) -> None:
 def test_a_crop_is_that_part_of_the_whole() -> None:
     drawing = decompose_drawing(draw_ball(SIZE))
     scene = default_scene(SIZE, SIZE)
-    light = all_together(scene, passes(False))
-    sheet = sheet_of(drawing)
-    whole = light_sheet(sheet, WHOLE, light, scene).astype(int)
+    given, weight = passes(False), np.ones(3, np.float32)
+    light = Illumination([(weight, given.diffuse, given.glossy)], character_area=WHOLE)
+    layers = byte_layers_of(drawing)
+    whole = composite(layers, light, scene).astype(int)
     crop = (16.0, -8.0, 40.0, 48.0)
-    part = light_sheet(sheet.cut(crop, (40, 48)), crop, light, scene).astype(int)
+    part = composite(layers.cut(crop, (40, 48)), light, scene, crop).astype(int)
     assert not part[:8].any()
     assert np.abs(part[8:] - whole[:40, 16:56]).max() <= 3
 
 
 def test_small_pictures_average_and_large_ones_stay_in_register() -> None:
-    sheet = sheet_of(decompose_drawing(draw_ball(SIZE)))
-    half = sheet.cut(WHOLE, (48, 48))
-    averaged = sheet.pixels.reshape(48, 2, 48, 2, 4).mean(axis=(1, 3))
+    layers = byte_layers_of(decompose_drawing(draw_ball(SIZE)))
+    half = layers.cut(WHOLE, (48, 48))
+    averaged = layers.pixels.reshape(48, 2, 48, 2, 4).mean(axis=(1, 3))
     assert np.abs(half.pixels - averaged).max() <= 1
-    twice = sheet.cut(WHOLE, (192, 192))
+    twice = layers.cut(WHOLE, (192, 192))
     back = twice.coverage.reshape(96, 2, 96, 2).mean(axis=(1, 3))
-    assert np.abs(back - sheet.coverage).mean() < 2
-    nothing = sheet.cut((500.0, 500.0, 10.0, 10.0), (20, 20))
+    assert np.abs(back - layers.coverage).mean() < 2
+    nothing = layers.cut((500.0, 500.0, 10.0, 10.0), (20, 20))
     assert not nothing.pixels.any()
     assert (nothing.labels == -1).all()

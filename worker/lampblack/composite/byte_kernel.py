@@ -1,9 +1,7 @@
-"""``composite`` for previews: the same sums in one compiled loop over a sheet of bytes."""
+"""The composite over byte layers, for previews: the same sums in one compiled loop."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,9 +14,10 @@ from ..drawing.palette import Palette
 from ..materials import MaterialTable
 from ..scene import Scene, default_scene
 from .borders import swatch_albedos
-from .composite import KNEE, ROUNDING
-from .resample import Band, enlarge
-from .sheet import Box, Sheet
+from .byte_layers import ByteLayers
+from .float_kernel import KNEE, ROUNDING
+from .illumination import Illumination
+from .resample import Box
 
 Floats = NDArray[np.float32]
 
@@ -27,61 +26,31 @@ _LINEAR = linear(np.arange(256) / 255)
 _SRGB = srgb(np.arange(STEPS + 2) / STEPS)
 _UNIT = np.ones((1, 1, 3), np.float32)
 _UNSHADED = np.ones((1, 1), np.bool_)
-_DARK = np.zeros((1, 1, 3), np.float32)
 
 
-@dataclass(frozen=True)
-class Light:
-    """All sources together, each times its weight.
-
-    Attributes:
-        diffuse, glossy: (h, w, 3) scene-linear, as in ``LightPasses``.
-        figure: what of the drawing they cover, its pixels.
-        floor: (h, w, 3) the floor's light with the figure over that without; None: no floor.
-        ground: what of the drawing ``floor`` covers.
-    """
-
-    diffuse: Floats
-    glossy: Floats
-    figure: Box
-    floor: Floats | None = None
-    ground: Box = (0.0, 0.0, 1.0, 1.0)
-
-
-def add_up(weighted: Sequence[tuple[Floats, Floats]]) -> Floats:
-    """Sum (3,) weights times (h, w, 3) pictures of one area, at the size of the largest."""
-    if not weighted:
-        return _DARK
-    height = max(picture.shape[0] for _, picture in weighted)
-    width = max(picture.shape[1] for _, picture in weighted)
-    band = Band(width, height, 0, height)
-    total = np.zeros((height, width, 3), np.float32)
-    for weight, picture in weighted:
-        total += weight * enlarge(picture, band)
-    return total
-
-
-def light_sheet(sheet: Sheet, crop: Box, light: Light, scene: Scene) -> NDArray[np.uint8]:
-    """The sheet, lit: (H, W, 4) uint8 sRGB, premultiplied.
+def composite_bytes(
+    layers: ByteLayers, illumination: Illumination, scene: Scene, crop: Box
+) -> NDArray[np.uint8]:
+    """The layers, lit: (H, W, 4) uint8 sRGB, premultiplied; see ``composite``.
 
     Args:
-        sheet: cut from a drawing.
-        crop: what of the drawing it shows, the drawing's pixels.
-        light: of the colours, powers and amounts of ``scene``.
-        scene: its materials.
+        layers: cut from a drawing.
+        crop: what of the drawing they show, the drawing's pixels.
     """
-    materials = MaterialTable.of(scene, sheet.palette.colours)
+    materials = MaterialTable.of(scene, layers.palette.colours)
     kinds = materials.diffuse.astype(np.uint8) + 2 * materials.glossy.astype(np.uint8)
-    height, width = sheet.ink.shape
+    height, width = layers.ink.shape
     lit = np.empty((height, width, 4), np.uint8)
+    ratio = illumination.floor_ratio
     _light(
-        sheet.pixels, sheet.albedo, sheet.ink, sheet.ink_colour, sheet.coverage,
-        sheet.labels, sheet.others, sheet.shares,
-        swatch_albedos(sheet.palette), kinds, materials.gloss,
-        light.diffuse, light.glossy, _steps(crop, sheet.size, light.figure),
-        _UNIT if light.floor is None else light.floor,
-        _UNSHADED if light.floor is None else _unshaded(light.floor), light.floor is not None,
-        _steps(crop, sheet.size, light.ground),
+        layers.pixels, layers.albedo, layers.ink, layers.ink_colour, layers.coverage,
+        layers.labels, layers.others, layers.shares,
+        swatch_albedos(layers.palette), kinds, materials.gloss,
+        illumination.diffuse, illumination.glossy,
+        _steps(crop, layers.size, illumination.character_area or crop),
+        _UNIT if ratio is None else ratio,
+        _UNSHADED if ratio is None else _unshaded(ratio), ratio is not None,
+        _steps(crop, layers.size, illumination.floor_area or crop),
         _LINEAR, _SRGB, lit,
     )  # fmt: skip
     return lit
@@ -98,13 +67,13 @@ def warm_up() -> None:
     grey, bytes_ = np.zeros((1, 1, 3), np.uint8), np.zeros((1, 1), np.uint8)
     label = np.full((1, 1), -1, np.int16)
     pixels, palette = np.zeros((1, 1, 4), np.uint8), Palette(())
-    sheet = Sheet(pixels, grey, bytes_, grey, bytes_, label, label, bytes_, palette)
-    area = 0.0, 0.0, 1.0, 1.0
-    light_sheet(sheet, area, Light(_DARK, _DARK, area, _UNIT), default_scene(1, 1))
+    layers = ByteLayers(pixels, grey, bytes_, grey, bytes_, label, label, bytes_, palette)
+    white = np.ones(3, np.float32), _UNIT, _UNIT
+    composite_bytes(layers, Illumination([white], [white]), default_scene(1, 1), (0, 0, 1, 1))
 
 
 def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, float, float]:
-    """(step, start) along x, then along y: pixel ``i`` of the sheet lies at ``start + i * step``
+    """(step, start) along x, then along y: pixel ``i`` of the layers lies at ``start + i * step``
     across ``area``, which goes from 0 to 1."""
     found = []
     for axis in (0, 1):

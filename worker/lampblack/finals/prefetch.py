@@ -1,4 +1,4 @@
-"""Stages of a line of work, each in a thread of its own."""
+"""Stages of a job, each in a thread of its own."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ Item = TypeVar("Item")
 _END: Final = object()
 
 
-def ahead(
+def prefetch(
     items: Generator[Item, None, None], abandon: Callable[[], None] = lambda: None
 ) -> Generator[Item, None, None]:
-    """``items``, of which the next is made in a thread while the last is used: one is waiting at
-    most. Close it to end early; then ``abandon`` may cut short what is being made."""
+    """Yield ``items``. A thread makes the next one while the caller uses the last one; at most
+    one waits. Close the generator to end early: ``abandon`` may then cut short what is made."""
     with closing(items), ThreadPoolExecutor(1) as thread:
         try:
             coming = thread.submit(next, items, _END)

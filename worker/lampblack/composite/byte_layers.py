@@ -13,17 +13,15 @@ from ..colour import linear
 from ..drawing.drawing import Drawing
 from ..drawing.palette import Palette
 from .borders import mixed_labels
+from .resample import Box
 
 Bytes = NDArray[np.uint8]
-Box = tuple[float, float, float, float]
-"""x, y, width, height in pixels of a drawing."""
-
 _FARTHEST = 12
 _LINEAR = linear(np.arange(256) / 255)
 
 
 @dataclass(frozen=True)
-class Sheet:
+class ByteLayers:
     """The layers of a ``Drawing``, H x W, in 17 bytes a pixel.
 
     Attributes:
@@ -52,12 +50,16 @@ class Sheet:
         """(width, height) in pixels."""
         return self.pixels.shape[1], self.pixels.shape[0]
 
+    def albedo_at(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> NDArray[np.float32]:
+        """(V, 3) sRGB in 0..1 of V pixels."""
+        return self.albedo[row, column].astype(np.float32) / 255
+
     @property
     def nbytes(self) -> int:
         """Bytes of all layers."""
         return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
 
-    def cut(self, crop: Box, size: tuple[int, int]) -> Sheet:
+    def cut(self, crop: Box, size: tuple[int, int]) -> ByteLayers:
         """The part in ``crop`` at ``size`` (width, height) pixels; past the drawing's edges it
         is empty. Averaged when that is smaller, interpolated when larger."""
         place = _place(crop, size, self.size)
@@ -67,7 +69,7 @@ class Sheet:
         larger = max(size[0] / crop[2], size[1] / crop[3])
         reach = min(_FARTHEST, math.ceil(1.5 * larger)) if larger > 1 else 1
         others, shares = _blends(labels, albedo, self.palette, reach)
-        return Sheet(
+        return ByteLayers(
             pixels=_resized(self.pixels, place, size),
             albedo=albedo,
             ink=_resized(self.ink, place, size),
@@ -80,10 +82,10 @@ class Sheet:
         )
 
 
-def sheet_of(drawing: Drawing) -> Sheet:
+def byte_layers_of(drawing: Drawing) -> ByteLayers:
     """The layers of ``drawing``, rounded."""
     others, shares = _blends(drawing.labels, _rounded(drawing.albedo), drawing.palette, 1)
-    return Sheet(
+    return ByteLayers(
         pixels=premultiplied(drawing.pixels),
         albedo=_rounded(drawing.albedo),
         ink=_rounded(drawing.ink),
@@ -104,7 +106,7 @@ def premultiplied(pixels: Bytes) -> Bytes:
 
 
 def cut_picture(picture: Bytes, crop: Box, size: tuple[int, int]) -> Bytes:
-    """The part of a premultiplied (H, W, 4) picture in ``crop``, as ``Sheet.cut`` cuts."""
+    """The part of a premultiplied (H, W, 4) picture in ``crop``, as ``ByteLayers.cut`` cuts."""
     return _resized(picture, _place(crop, size, (picture.shape[1], picture.shape[0])), size)
 
 
@@ -168,10 +170,10 @@ def _blends(
     return others, _rounded(shares)
 
 
-def _ink_colour(sheet: Sheet, place: _Place | None, size: tuple[int, int]) -> Bytes:
+def _ink_colour(layers: ByteLayers, place: _Place | None, size: tuple[int, int]) -> Bytes:
     """Weighted by the ink: where there is none its colour means nothing."""
-    inked = np.concatenate([sheet.ink_colour, np.zeros_like(sheet.ink_colour[..., :1])], axis=2)
-    inked[..., 3] = sheet.ink
+    inked = np.concatenate([layers.ink_colour, np.zeros_like(layers.ink_colour[..., :1])], axis=2)
+    inked[..., 3] = layers.ink
     part = _resized(premultiplied(inked), place, size)
     weight = np.maximum(part[..., 3:].astype(np.uint16), 1)
     colour = part[..., :3].astype(np.uint16) * 255 // weight

@@ -1,0 +1,101 @@
+"""The light that falls on a drawing: all sources together, each times its weight."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..colour import hex_linear
+from ..render.passes import LightPasses, Passes
+from ..scene import Scene
+from .resample import Band, Box, enlarge
+
+FAINT = np.float32(1e-3)  # no light is no shadow, rather than 0 / 0
+
+Floats = NDArray[np.float32]
+Weighted = tuple[Floats, Floats, Floats]
+"""The weight of a source, (3,) scene-linear, and its two passes, (h, w, 3): diffuse and glossy
+light of the character, or the floor's light with the character and without it."""
+
+_DARK = np.zeros((1, 1, 3), np.float32)
+
+
+@dataclass(frozen=True, eq=False)
+class Illumination:
+    """The sources of light on a drawing, and their sums, made when they are needed.
+
+    Attributes:
+        character: the sources on the character. floor: those on the floor, if there is one.
+        character_area, floor_area: what of the drawing they cover, its pixels; None is
+            just what the layers show.
+    """
+
+    character: Sequence[Weighted]
+    floor: Sequence[Weighted] = ()
+    character_area: Box | None = None
+    floor_area: Box | None = None
+
+    @staticmethod
+    def of(passes: Passes, scene: Scene) -> Illumination:
+        """The light of ``scene``, traced white in ``passes`` that cover the whole drawing."""
+        return Illumination.sum_of(weigh(passes, scene))
+
+    @staticmethod
+    def sum_of(sources: Sequence[tuple[Floats, LightPasses]]) -> Illumination:
+        """Light passes that cover the whole drawing, with their weights."""
+        return Illumination(
+            [(weight, light.diffuse, light.glossy) for weight, light in sources],
+            [
+                (weight, light.floor, light.open_floor)
+                for weight, light in sources
+                if light.floor is not None and light.open_floor is not None
+            ],
+        )
+
+    @cached_property
+    def diffuse(self) -> Floats:
+        """(h, w, 3) scene-linear, as in ``LightPasses``, at the size of the largest source."""
+        return add_up([(weight, light) for weight, light, _ in self.character])
+
+    @cached_property
+    def glossy(self) -> Floats:
+        """(h, w, 3) scene-linear, as in ``LightPasses``, at the size of the largest source."""
+        return add_up([(weight, light) for weight, _, light in self.character])
+
+    @cached_property
+    def floor_ratio(self) -> Floats | None:
+        """(h, w, 3), the floor's light with the character over that without it, 1 where no light
+        falls; None without a floor."""
+        if not self.floor:
+            return None
+        cast = add_up([(weight, light) for weight, light, _ in self.floor])
+        free = add_up([(weight, light) for weight, _, light in self.floor])
+        return np.asarray((cast + FAINT) / (free + FAINT), np.float32)
+
+
+def weigh(passes: Passes, scene: Scene) -> list[tuple[Floats, LightPasses]]:
+    """The sources that give light, each with its weight: its colour times its power."""
+    weights = [hex_linear(light.colour) * np.float32(light.power) for light in scene.lights]
+    weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
+    return [
+        (weight, source)
+        for weight, source in zip(weights, (*passes.lights, passes.ambient), strict=True)
+        if weight.any()
+    ]
+
+
+def add_up(weighted: Sequence[tuple[Floats, Floats]]) -> Floats:
+    """Sum (3,) weights times (h, w, 3) pictures of one area, at the size of the largest."""
+    if not weighted:
+        return _DARK
+    height = max(picture.shape[0] for _, picture in weighted)
+    width = max(picture.shape[1] for _, picture in weighted)
+    band = Band(width, height, 0, height)
+    total = np.zeros((height, width, 3), np.float32)
+    for weight, picture in weighted:
+        total += weight * enlarge(picture, band)
+    return total

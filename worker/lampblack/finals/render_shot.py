@@ -1,0 +1,238 @@
+"""Render frames of a shot into files. Each distinct drawing is lit once, however often it is held.
+
+Three things go on at once: the surface of the next drawing is made, the renderer traces this one,
+and the last one is composited and written.
+"""
+
+from __future__ import annotations
+
+import shutil
+import warnings
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..atomic import atomic_path
+from ..composite import composite
+from ..errors import LampblackError, LampblackWarning, OutputError, RenderError
+from ..pipeline import Pipeline
+from ..shot import ShotFrame
+from .exr import save_exr
+from .layers import Layers, make_layers, seen_layers
+from .png import save_png
+from .prefetch import prefetch
+from .resolve import ResolvedJob
+from .tasks import Blank, Failed, Ready, RenderTask, StampedFrame, Traced, UpToDate, plan
+
+ATTEMPTS = 2
+"""Traces of one drawing before its frames have failed: a renderer may be lost."""
+OVERLAP_PX = 4_000_000
+"""Larger drawings are made one after another: several at once would take too much memory."""
+
+
+@dataclass
+class Outcome:
+    """What became of the frames.
+
+    Attributes:
+        done: written, or there already. kept: those that were there.
+        unlit: passed through, since nothing is drawn. failed: with the error of each.
+    """
+
+    done: list[ShotFrame] = field(default_factory=list)
+    kept: list[ShotFrame] = field(default_factory=list)
+    unlit: list[ShotFrame] = field(default_factory=list)
+    failed: list[tuple[ShotFrame, LampblackError]] = field(default_factory=list)
+
+
+class RenderListener:
+    """Hears how a job goes on; what a method raises ends the job. By default it does nothing.
+
+    ``on_progress`` and ``on_renderer_lost`` may be called from the thread that traces, the others
+    from the caller's.
+    """
+
+    def on_frame(self, frame: ShotFrame, error: LampblackError | None, *, kept: bool) -> None:
+        """The file of ``frame`` is there (``kept``: it was before), or it failed."""
+
+    def on_blank(self, frame: ShotFrame, reason: LampblackError) -> None:
+        """Nothing is drawn on ``frame``; it is passed through unlit."""
+        words = f"{frame.name}: {reason.what} Passed through unlit."
+        warnings.warn(words, LampblackWarning, stacklevel=2)
+
+    def on_warning(self, frame: ShotFrame, sentence: str) -> None:
+        """Preparing the drawing of ``frame`` warned of something."""
+
+    def on_progress(self, frame: ShotFrame, share: float) -> None:
+        """``share``, 0 to 1, of ``frame`` is done."""
+
+    def on_renderer_lost(self, frame: ShotFrame, error: RenderError) -> None:
+        """The renderer was lost; the drawing of ``frame`` is traced again."""
+
+
+def render_shot(
+    job: ResolvedJob,
+    pipeline: Pipeline,
+    frames: Sequence[ShotFrame] | None = None,
+    listener: RenderListener | None = None,
+    check: Callable[[], None] = lambda: None,
+) -> Outcome:
+    """Render ``frames`` (None: all of the job) into their files.
+
+    A frame whose file was made from the same drawing, neighbours and scene is left alone, so
+    that a job that was stopped goes on where it was. A frame that fails is reported and passed
+    over; when nothing can be written, the rest fails too. ``pipeline`` is used from other
+    threads until this returns.
+
+    Args:
+        check: called often, from any thread of the job; what it raises ends the job.
+    """
+    wanted = job.frames if frames is None else frames
+    run = _Run(job, pipeline, listener or RenderListener(), check)
+    tasks = plan(job, pipeline, wanted, run.check)
+    if _overlapping(job, wanted):
+        traced = prefetch(run.traced(prefetch(tasks)), run.stop)
+    else:
+        traced = run.traced(tasks)
+    with closing(traced):
+        for task in traced:
+            run.finish(task)
+    return run.outcome
+
+
+def _overlapping(job: ResolvedJob, wanted: Sequence[ShotFrame]) -> bool:
+    if job.shot.canvas is not None:
+        return job.shot.canvas.width * job.shot.canvas.height <= OVERLAP_PX
+    try:
+        return job.shot.cel(wanted[0]).pixels[..., 0].size <= OVERLAP_PX if wanted else False
+    except LampblackError:
+        return True  # reported when its turn comes
+
+
+class _Stopped(Exception):
+    """Ends the threads of a job that was interrupted."""
+
+
+@dataclass
+class _Run:
+    job: ResolvedJob
+    pipeline: Pipeline
+    listener: RenderListener
+    caller_check: Callable[[], None]
+    outcome: Outcome = field(default_factory=Outcome)
+    full: OutputError | None = None
+    stopped: bool = False
+
+    def stop(self) -> None:
+        """End the threads, and the render that goes on."""
+        self.stopped = True
+        self.pipeline.interrupt()
+
+    def check(self) -> None:
+        """Raise if the job is to end."""
+        self.caller_check()
+        if self.stopped:
+            raise _Stopped
+
+    def traced(
+        self, tasks: Generator[RenderTask, None, None]
+    ) -> Generator[UpToDate | Failed | Blank | Traced, None, None]:
+        """``tasks`` with their light."""
+        with closing(tasks):
+            for task in tasks:
+                yield self._trace(task) if isinstance(task, Ready) else task
+
+    def _trace(self, task: Ready) -> Traced | Failed:
+        frame, _ = task.frames[0]
+        self.listener.on_progress(frame, 0.3)
+        for attempt in range(1, ATTEMPTS + 1):
+            self.check()
+            if self.full is not None:
+                return Failed(task.frames, self.full)
+            try:
+                passes = self.pipeline.light(task.prepared, task.scene, task.surface)
+                return Traced(task, passes)
+            except RenderError as error:
+                self.check()
+                if attempt == ATTEMPTS:
+                    return Failed(task.frames, error)
+                self.listener.on_renderer_lost(frame, error)
+        raise AssertionError
+
+    def finish(self, task: UpToDate | Failed | Blank | Traced) -> None:
+        """Write what was lit, and report what became of each frame."""
+        match task:
+            case UpToDate(frame):
+                self.outcome.done.append(frame)
+                self.outcome.kept.append(frame)
+                self.listener.on_frame(frame, None, kept=True)
+            case Failed(frames, error):
+                for frame, _ in frames:
+                    self._fail(frame, error)
+            case Blank(frames, pixels, reason):
+                for frame in self._write(frames, lambda: pixels):
+                    self.outcome.unlit.append(frame)
+                    self.listener.on_blank(frame, reason)
+                    self.listener.on_frame(frame, None, kept=False)
+            case Traced(ready, _):
+                first, _ = ready.frames[0]
+                for sentence in ready.warnings:
+                    self.listener.on_warning(first, sentence)
+                for frame in self._write(ready.frames, lambda: self._lit(task)):
+                    self.listener.on_frame(frame, None, kept=False)
+
+    def _write(
+        self,
+        frames: Sequence[StampedFrame],
+        lit: Callable[[], NDArray[np.uint8] | Layers],
+    ) -> Generator[ShotFrame, None, None]:
+        """Write the frames of one lit cel; yields those that are there."""
+        made: NDArray[np.uint8] | Layers | None = None
+        written: dict[str, Path] = {}
+        for frame, stamp in frames:
+            self.listener.on_progress(frame, 0.9)
+            try:
+                if self.full is not None:
+                    raise self.full
+                target = self.job.targets.path(frame)
+                if stamp in written:
+                    _copy(written[stamp], target)
+                else:
+                    made = lit() if made is None else made
+                    self._save(frame, made, stamp)
+                    written[stamp] = target
+            except LampblackError as error:
+                if isinstance(error, OutputError):
+                    self.full = error
+                self._fail(frame, error)
+            else:
+                self.outcome.done.append(frame)
+                yield frame
+
+    def _fail(self, frame: ShotFrame, error: LampblackError) -> None:
+        self.outcome.failed.append((frame, error))
+        self.listener.on_frame(frame, error, kept=False)
+
+    def _lit(self, traced: Traced) -> NDArray[np.uint8] | Layers:
+        prepared, scene = traced.task.prepared, traced.task.scene
+        if self.job.targets.kind == "png":
+            return composite(prepared.layers, traced.passes, scene)
+        return make_layers(prepared, scene, traced.passes)
+
+    def _save(self, frame: ShotFrame, lit: NDArray[np.uint8] | Layers, stamp: str) -> None:
+        shot, target = self.job.shot, self.job.targets.path(frame)
+        if self.job.targets.kind == "exr":
+            save_exr(target, seen_layers(shot, frame, lit), stamp)
+        else:
+            assert not isinstance(lit, Layers)
+            save_png(target, shot.finish(frame, lit), stamp)
+
+
+def _copy(source: Path, target: Path) -> None:
+    """Frames that are made from the same are the same, to the last byte."""
+    with atomic_path(target) as temporary:
+        shutil.copyfile(source, temporary)

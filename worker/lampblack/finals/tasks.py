@@ -1,0 +1,196 @@
+"""What a job has to do: frames that show one drawing under one light, prepared for rendering."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from .. import __version__
+from ..cache import digest
+from ..errors import LampblackError, LampblackWarning, NothingDrawnError
+from ..normals.card import shipped_weights
+from ..pipeline import Pipeline
+from ..prepared import PreparedDrawing
+from ..render import QUALITIES, Passes, Surface
+from ..scene import Canvas, Scene, encode_scene
+from ..shot import Cel, Picture, ShotFrame, by_drawing
+from ..timeline import scene_at
+from ..warning_collector import collect_warnings
+from .neighbours import NeighbourLoader
+from .resolve import ResolvedJob
+
+StampedFrame = tuple[ShotFrame, str]
+"""A frame, and the stamp of all that its file is made from."""
+
+
+@dataclass(frozen=True)
+class UpToDate:
+    """The file of ``frame`` is there, whole, and made from the same."""
+
+    frame: ShotFrame
+
+
+@dataclass(frozen=True)
+class Failed:
+    """The frames cannot be rendered."""
+
+    frames: Sequence[StampedFrame]
+    error: LampblackError
+
+
+@dataclass(frozen=True)
+class Blank:
+    """Nothing is drawn: ``pixels`` of the cel, (H, W, 4) uint8, are passed through unlit."""
+
+    frames: Sequence[StampedFrame]
+    pixels: Picture
+    reason: NothingDrawnError
+
+
+@dataclass(frozen=True)
+class Ready:
+    """Frames that show one drawing under one light.
+
+    Attributes:
+        scene: in the cel's pixels.
+        surface: the relief of ``prepared`` in the materials of ``scene``.
+        warnings: what preparing the drawing warned of, where warnings are collected.
+    """
+
+    frames: Sequence[StampedFrame]
+    scene: Scene
+    prepared: PreparedDrawing
+    surface: Surface
+    warnings: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Traced:
+    """A task with its light."""
+
+    task: Ready
+    passes: Passes
+
+
+RenderTask = UpToDate | Failed | Blank | Ready
+
+
+def plan(
+    job: ResolvedJob,
+    pipeline: Pipeline,
+    frames: Sequence[ShotFrame],
+    check: Callable[[], None] = lambda: None,
+) -> Generator[RenderTask, None, None]:
+    """The tasks of ``frames``, prepared one by one. ``check`` is called often: what it raises
+    ends the plan."""
+    planner = _Planner(job, pipeline, check)
+    for group in by_drawing(frames):
+        yield from planner.group(group)
+
+
+@dataclass
+class _Lighting:
+    """Frames of one drawing that share a light."""
+
+    scene: Scene
+    frames: list[StampedFrame]
+
+
+class _Planner:
+    def __init__(self, job: ResolvedJob, pipeline: Pipeline, check: Callable[[], None]) -> None:
+        self._job = job
+        self._pipeline = pipeline
+        self._check = check
+        self._neighbours = NeighbourLoader(job.shot, pipeline, job.reach, check)
+        self._made_by = digest(__version__, job.options, _weights())
+        self._canvas: Canvas | None = None
+
+    def group(self, frames: Sequence[ShotFrame]) -> Generator[RenderTask, None, None]:
+        """The tasks of frames that share a drawing; files that are up to date come first."""
+        lightings: list[_Lighting] = []
+        cel: Cel | None = None
+        shot = self._job.shot
+        for frame in frames:
+            try:
+                if shot.canvas is None:
+                    cel = cel or shot.cel(frame)
+                canvas = shot.canvas or Canvas(*_size(cel))
+                scene = self._scene(frame, canvas)
+                stamp = self._stamp(frame, canvas, scene)
+                if not self._job.again and self._job.targets.holds(frame, stamp):
+                    yield UpToDate(frame)
+                    continue
+                cel = cel or shot.cel(frame)
+                placed = shot.place(frame, scene, _size(cel))
+            except LampblackError as error:
+                yield Failed([(frame, "")], error)
+                continue
+            if not lightings or lightings[-1].scene != placed:
+                lightings.append(_Lighting(placed, []))
+            lightings[-1].frames.append((frame, stamp))
+        if cel is not None and lightings:
+            yield from self._prepare(lightings, cel)
+
+    def _prepare(self, lightings: Sequence[_Lighting], cel: Cel) -> list[RenderTask]:
+        """Keys move lights and floor: the surface is the same throughout."""
+        frame, _ = lightings[0].frames[0]
+        scene = lightings[0].scene
+        all_frames = [stamped for lighting in lightings for stamped in lighting.frames]
+        try:
+            with collect_warnings() as collected:
+                prepared = self._pipeline.prepare(
+                    self._neighbours.drawing(frame),
+                    self._neighbours.neighbours(frame),
+                    progress=lambda share: self._check(),
+                    with_normals=self._job.targets.kind == "exr",
+                )
+                surface = prepared.surface(scene, QUALITIES[scene.quality].mesh_stride)
+        except NothingDrawnError as error:
+            if self._job.single:
+                return [Failed(all_frames, error)]
+            return [Blank(all_frames, cel.pixels, error)]
+        except LampblackError as error:
+            return [Failed(all_frames, error)]
+        first = Ready(lightings[0].frames, scene, prepared, surface, tuple(collected))
+        rest = [
+            replace(first, frames=lighting.frames, scene=lighting.scene, warnings=())
+            for lighting in lightings[1:]
+        ]
+        return [first, *rest]
+
+    def _scene(self, frame: ShotFrame, canvas: Canvas) -> Scene:
+        """The scene of ``frame``, in canvas pixels."""
+        scene = self._job.overrides.scene(canvas)
+        if self._canvas is None:
+            self._canvas = scene.canvas
+        expected = self._canvas
+        if (canvas.width, canvas.height) != (expected.width, expected.height):
+            warnings.warn(
+                f"{frame.name} is {canvas.width} x {canvas.height} pixels, not {expected.width} x "
+                f"{expected.height} like the scene or the first frame.",
+                LampblackWarning,
+                stacklevel=2,
+            )
+            if self._job.shot.canvas is not None:
+                self._canvas = canvas  # once: a project has one size
+        number = frame.number
+        # A frame without a number goes by its place in the job.
+        return scene_at(scene, self._job.frames.index(frame) + 1 if number is None else number)
+
+    def _stamp(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> str:
+        names = frame.drawing, self._neighbours.names(frame), frame.setting
+        made_from = (self._made_by, self._job.targets.kind, *names)
+        return digest(*made_from, canvas, encode_scene(scene))
+
+
+def _size(cel: Cel | None) -> tuple[int, int]:
+    assert cel is not None
+    return cel.pixels.shape[1], cel.pixels.shape[0]
+
+
+def _weights() -> list[str]:
+    """Names for the networks as they are installed: another network makes other pictures."""
+    folder: Path = shipped_weights().parent
+    return [digest(path.name, path.read_bytes()) for path in sorted(folder.iterdir())]

@@ -1,0 +1,259 @@
+"""Render jobs: a queue, and a thread that renders them with a renderer of its own."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from ..drawing import DrawingPlanes
+from ..errors import (
+    DrawingError,
+    LampblackError,
+    OutputError,
+    RenderError,
+    RenderRestartedError,
+)
+from ..finals.render_shot import RenderListener, render_shot
+from ..finals.resolve import ResolvedJob
+from ..finals.scene_overrides import SceneOverrides
+from ..finals.targets import Targets
+from ..normals.temporal.neighbours import REACH
+from ..pipeline import Pipeline
+from ..preview import PreviewState, RendererState
+from ..protocol import Done, ErrorCode, FrameDone, Progress, Render, error_message
+from ..protocol.fields import Message
+from ..scene import Scene
+from ..shot import ShotFrame
+from .faults import fault_message
+from .session import FrameContent
+from .session_shot import SessionShot
+
+NICENESS = 10
+MAX_WAITING = 16
+PLANES_SECONDS = 20.0
+"""How long a client may take to send a drawing that a job needs."""
+
+
+class _Cancelled(Exception):
+    """The job was cancelled."""
+
+
+@dataclass
+class Job:
+    """A render message, with the scene and the frames as they were when it came."""
+
+    session: str
+    message: Render
+    scene: Scene
+    contents: Mapping[int, FrameContent]
+    frames: list[int]
+    cancelled: bool = False
+    done: int = 0
+    failed: int = 0
+
+
+@dataclass
+class Jobs:
+    """Works off jobs one after another.
+
+    Args:
+        previews: their planes are used too.
+        need: asks the client of a session for the planes of a drawing.
+        deliver: sends a message to a session.
+
+    Attributes:
+        state: what the renderer of jobs does.
+    """
+
+    previews: PreviewState
+    pipeline: Pipeline
+    need: Callable[[str, str], None]
+    deliver: Callable[[str, Message], None]
+    state: RendererState = "off"
+    _waiting: deque[Job] = field(default_factory=deque)
+    _current: Job | None = None
+    _condition: threading.Condition = field(default_factory=threading.Condition)
+
+    @property
+    def waiting(self) -> int:
+        """Jobs not yet begun."""
+        return len(self._waiting)
+
+    @property
+    def renderer_pid(self) -> int | None:
+        """Process of the renderer, None while there is none."""
+        return self.pipeline.renderer.pid
+
+    def submit(self, job: Job) -> bool:
+        """Queue a job; False if too many wait."""
+        with self._condition:
+            if len(self._waiting) >= MAX_WAITING:
+                return False
+            self._waiting.append(job)
+            self._condition.notify()
+        return True
+
+    def cancel(self, session: str, request: int | None = None) -> None:
+        """End a job of the session, or all of them."""
+        self._cancel(lambda job: job.session == session and request in (None, job.message.request))
+
+    def close(self) -> None:
+        """Drop everything; the thread ends with the previews."""
+        self._cancel(lambda job: True)
+
+    def _cancel(self, which: Callable[[Job], bool]) -> None:
+        with self._condition:
+            for job in [*self._waiting, *([self._current] if self._current else [])]:
+                job.cancelled = job.cancelled or which(job)
+            if self._current and self._current.cancelled:
+                self.pipeline.interrupt()
+            self._condition.notify()
+
+    def run(self) -> None:
+        """Work until the previews close."""
+        while True:
+            with self._condition:
+                self._condition.wait_for(lambda: self._waiting or self.previews.closing)
+                if self.previews.closing:
+                    break
+                job = self._current = self._waiting.popleft()
+            self.state = "working"
+            self._work(job)
+            with self._condition:
+                self._current = None
+            if not self._waiting:
+                self.pipeline.close()  # a renderer of finals holds much memory
+            self.state = "off" if self.renderer_pid is None else "idle"
+        self.pipeline.close()
+
+    def _work(self, job: Job) -> None:
+        def check() -> None:
+            if job.cancelled:
+                raise _Cancelled
+
+        outcome = "finished"
+        try:
+            check()
+            render_shot(self._resolve(job), self.pipeline, None, _Reporter(self, job), check)
+        except _Cancelled:
+            outcome = "cancelled"
+        except Exception as error:  # one job's trouble must not end the thread
+            self.report(job, error)
+            outcome = "failed"
+        self.deliver(
+            job.session,
+            Done(
+                request=job.message.request,
+                outcome=outcome,  # type: ignore[arg-type]
+                frames_done=job.done,
+                frames_total=len(job.frames),
+                frames_failed=job.failed,
+            ),
+        )
+
+    def _resolve(self, job: Job) -> ResolvedJob:
+        """Raises OutputError: the files cannot be written there."""
+        message = job.message
+        shot = SessionShot(
+            job.contents,
+            job.scene.canvas,
+            message.output,
+            lambda digest: self._planes(job, digest),
+        )
+        wanted = set(job.frames)
+        frames = [frame for frame in shot.frames if frame.number in wanted]
+        targets = Targets(message.output)
+        try:
+            targets.prepare(frames, [])
+        except LampblackError as error:
+            raise OutputError(error.what, error.remedy, error.details) from error
+        return ResolvedJob(
+            shot=shot,
+            frames=frames,
+            overrides=SceneOverrides(job.scene, quality=message.quality),
+            sources=[],
+            single=False,
+            reach=REACH,
+            targets=targets,
+            options=self.pipeline.options,
+            again=not message.keep_finished,
+        )
+
+    def _planes(self, job: Job, digest: str) -> DrawingPlanes:
+        """The drawing's planes, asked for if they are not held."""
+        planes = self.previews.planes.get(digest)
+        if planes is None:
+            self.need(job.session, digest)
+            with self.previews.condition:
+                self.previews.condition.wait_for(
+                    lambda: digest in self.previews.planes or job.cancelled, PLANES_SECONDS
+                )
+            planes = self.previews.planes.get(digest)
+        if job.cancelled:
+            raise _Cancelled
+        if planes is None:
+            raise DrawingError("The drawing was not sent.", "Render the frame again.")
+        return planes
+
+    def report(self, job: Job, error: Exception, frame: int | None = None) -> None:
+        """Tell the client of an error."""
+        self.deliver(job.session, fault_message(error, request=job.message.request, frame=frame))
+
+
+@dataclass
+class _Reporter(RenderListener):
+    """Tells the client how its job goes on."""
+
+    jobs: Jobs
+    job: Job
+
+    def on_frame(self, frame: ShotFrame, error: LampblackError | None, *, kept: bool) -> None:
+        if isinstance(error, OutputError):
+            raise error
+        assert frame.number is not None
+        self.jobs.state = "working"
+        if error is not None:
+            self.job.failed += 1
+            self.jobs.report(self.job, error, frame.number)
+            return
+        self.job.done += 1
+        message = self.job.message
+        self.jobs.deliver(
+            self.job.session,
+            FrameDone(
+                request=message.request,
+                frame=frame.number,
+                path=message.output % frame.number,
+                kept=kept,
+            ),
+        )
+
+    def on_blank(self, frame: ShotFrame, reason: LampblackError) -> None:
+        self.jobs.report(self.job, reason, frame.number)
+
+    def on_warning(self, frame: ShotFrame, sentence: str) -> None:
+        message = error_message(
+            ErrorCode.DRAWING_WARNING,
+            what=sentence,
+            request=self.job.message.request,
+            frame=frame.number,
+        )
+        self.jobs.deliver(self.job.session, message)
+
+    def on_progress(self, frame: ShotFrame, share: float) -> None:
+        assert frame.number is not None
+        message = Progress(
+            request=self.job.message.request,
+            frame=frame.number,
+            share=share,
+            frames_done=self.job.done,
+            frames_total=len(self.job.frames),
+        )
+        self.jobs.deliver(self.job.session, message)
+
+    def on_renderer_lost(self, frame: ShotFrame, error: RenderError) -> None:
+        self.jobs.state = "restarting"
+        restarted = RenderRestartedError(error.what, error.remedy, error.details)
+        self.jobs.report(self.job, restarted, frame.number)
