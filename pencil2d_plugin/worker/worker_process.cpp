@@ -131,6 +131,8 @@ void WorkerProcess::launch()
     mLastWords.clear();
     mProcess = new QProcess(this);
     mProcess->setProcessEnvironment(cleanEnvironment(mFolder->path()));
+    // Pencil2D's own folder may be a downloaded project: nothing in it is to be loaded.
+    mProcess->setWorkingDirectory(mFolder->path());
     mProcess->setStandardInputFile(QProcess::nullDevice());
     mProcess->setStandardOutputFile(QProcess::nullDevice());
     connect(mProcess, &QProcess::readyReadStandardError, this, &WorkerProcess::listen);
@@ -151,9 +153,10 @@ void WorkerProcess::launch()
     mLaunched.start();
     mLooking.start();
     mProcess->start(mInterpreter.path,
-                    {QStringLiteral("-m"), QStringLiteral("lampblack"), QStringLiteral("serve"),
-                     QStringLiteral("--connection"), mFolder->filePath(QStringLiteral("connection.json")),
-                     QStringLiteral("--parent-pid"), QString::number(QCoreApplication::applicationPid())});
+                    {QStringLiteral("-I"), QStringLiteral("-m"), QStringLiteral("lampblack"),
+                     QStringLiteral("serve"), QStringLiteral("--connection"),
+                     mFolder->filePath(QStringLiteral("connection.json")), QStringLiteral("--parent-pid"),
+                     QString::number(QCoreApplication::applicationPid())});
 }
 
 void WorkerProcess::lookForConnection()
@@ -240,7 +243,7 @@ void WorkerProcess::died(const QString& how)
     else if (mDeaths.size() >= MostDeaths)
     {
         giveUp({tr("Lampblack's worker ended %1 times within a minute.").arg(mDeaths.size()),
-                tr("Open a terminal and type: %1 -m lampblack doctor").arg(mInterpreter.path),
+                tr("Open a terminal and type: %1 -I -m lampblack doctor").arg(mInterpreter.path),
                 how + QLatin1Char('\n') + lastWords()});
     }
     else

@@ -15,9 +15,9 @@
 namespace lampblack
 {
 
-/// Runs `<python> -m lampblack serve` in a clean environment. Whatever it leaves lies in a private folder of
-/// each launch and goes with it. When it dies it is started again: at once, after 1 s, after 3 s; dying a
-/// fourth time within a minute it is given up.
+/// Runs `<python> -I -m lampblack serve` in a clean environment and in a private folder of each launch, so
+/// that no code of the current folder is run. Whatever it leaves lies there and goes with it. When it dies it
+/// is started again: at once, after 1 s, after 3 s; dying a fourth time within a minute it is given up.
 class WorkerProcess : public QObject
 {
     Q_OBJECT

@@ -341,11 +341,12 @@ int main(int argc, char** argv)
 {
     QCoreApplication app(argc, argv);
     const QStringList arguments = QCoreApplication::arguments();
-    if (arguments.mid(1, 4) != QStringList{QStringLiteral("-m"), QStringLiteral("lampblack"),
-                                           QStringLiteral("serve"), QStringLiteral("--connection")} ||
-        arguments.value(6) != QLatin1String("--parent-pid"))
+    if (arguments.mid(1, 5) != QStringList{QStringLiteral("-I"), QStringLiteral("-m"),
+                                           QStringLiteral("lampblack"), QStringLiteral("serve"),
+                                           QStringLiteral("--connection")} ||
+        arguments.value(7) != QLatin1String("--parent-pid"))
     {
         return 2;
     }
-    return FakeWorker(arguments[5]).run();
+    return FakeWorker(arguments[6]).run();
 }

@@ -1,9 +1,11 @@
 // WorkerProcess starts, watches, restarts and ends the worker.
 #include "worker/worker_process.h"
 
+#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QSignalSpy>
+#include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QtTest>
 
@@ -60,6 +62,37 @@ private Q_SLOTS:
         qunsetenv("PYTHONPATH");
         qunsetenv("QT_PLUGIN_PATH");
         qunsetenv("XDG_RUNTIME_DIR");
+    }
+
+    void codeInTheCurrentFolderIsNotRun()
+    {
+        const QString python = QStandardPaths::findExecutable(QStringLiteral("python3"));
+        if (python.isEmpty())
+        {
+            QSKIP("there is no Python");
+        }
+        const QString before = QDir::currentPath();
+        QVERIFY(QDir::setCurrent(mFolder->path()));
+        QFile trap(QStringLiteral("lampblack.py"));
+        QVERIFY(trap.open(QIODevice::WriteOnly));
+        trap.write("open(__file__ + '.ran', 'w')\n");
+        trap.close();
+        WorkerProcess process({python, QStringLiteral("the test")});
+        const QSignalSpy gaveUp(&process, &WorkerProcess::gaveUp);
+        process.start();
+        QTRY_COMPARE_WITH_TIMEOUT(gaveUp.count(), 1, 20000);
+        QVERIFY(!QFile::exists(QStringLiteral("lampblack.py.ran")));
+        QVERIFY(QDir::setCurrent(before));
+    }
+
+    void itIsStartedInItsOwnFolder()
+    {
+        WorkerProcess process(fake());
+        const QSignalSpy ready(&process, &WorkerProcess::ready);
+        process.start();
+        QTRY_COMPARE(ready.count(), 1);
+        const QString folder = QFile::symLinkTarget(QStringLiteral("/proc/%1/cwd").arg(process.pid()));
+        QVERIFY2(QFileInfo(folder).fileName().startsWith(QStringLiteral("lampblack-")), qPrintable(folder));
     }
 
     void killedItIsStartedAgainAndLeavesNothing()
