@@ -28,7 +28,7 @@ def exposure(subject: str, first: int, count: int, *, develop: bool) -> Expose:
     )
 
 
-@pytest.mark.parametrize("subject", ["figure", "floor"])
+@pytest.mark.parametrize("subject", ["character", "floor"])
 def test_pieces_add_up_to_the_whole(child: RenderChild, subject: str) -> None:
     whole = child.expose(SURFACE, exposure(subject, 0, 6, develop=True))
     assert child.expose(SURFACE, exposure(subject, 0, 1, develop=False)) == ()
@@ -42,9 +42,9 @@ def test_pieces_add_up_to_the_whole(child: RenderChild, subject: str) -> None:
 
 
 def test_an_exposure_that_is_not_at_hand_is_refused(child: RenderChild) -> None:
-    child.expose(SURFACE, exposure("figure", 0, 1, develop=False))
+    child.expose(SURFACE, exposure("character", 0, 1, develop=False))
     with pytest.raises(RenderError):
-        child.expose(SURFACE, exposure("figure", 3, 1, develop=True))
+        child.expose(SURFACE, exposure("character", 3, 1, develop=True))
     with pytest.raises(RenderError):
         child.expose(SURFACE, exposure("floor", 1, 1, develop=True))
-    assert len(child.expose(SURFACE, exposure("figure", 0, 1, develop=True))) == 2
+    assert len(child.expose(SURFACE, exposure("character", 0, 1, develop=True))) == 2

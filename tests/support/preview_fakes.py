@@ -60,7 +60,7 @@ class FakeRenderer:
         self.jobs.append(job)
         width, height = job.size
         light = np.full((height, width, 3), self.level, np.float32)
-        first = light if job.subject == "figure" else light / 2
+        first = light if job.subject == "character" else light / 2
         return (first, light) if job.develop else ()
 
     def kill(self) -> None:

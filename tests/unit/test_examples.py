@@ -94,7 +94,7 @@ def test_scene_fits_its_pictures(scene_name: str, pictures: list[Path]) -> None:
     kinds = {(material.diffuse, material.glossy) for material in scene.materials.values()}
     assert {(True, False), (True, True), (False, True)} <= kinds
 
-    # The floor is hinged where the standing figure's soles end.
+    # The floor is hinged where the standing character's soles end.
     standing = read(pictures[0])[..., 3]
     assert scene.floor is not None
     lowest = int(np.flatnonzero((standing > 127).any(axis=1))[-1])

@@ -96,7 +96,7 @@ def test_colour_and_power_are_shown_without_tracing(stage: Stage) -> None:
 def test_the_floor_is_traced_with_the_character_and_without(stage: Stage) -> None:
     look_at_ball(stage, ONE, replace(scene(10), floor=Floor(60)))
     subjects = {(job.subject, job.light is None) for job in stage.renderer.jobs}
-    assert subjects == {(s, ambient) for s in ("figure", "floor") for ambient in (False, True)}
+    assert subjects == {(s, ambient) for s in ("character", "floor") for ambient in (False, True)}
     assert stage.images(ONE)[-1].converged
     beside = stage.picture(ONE)[60, 4]
     assert beside[3] == pytest.approx(255 * (1 - srgb(np.float32(0.5))), abs=2)

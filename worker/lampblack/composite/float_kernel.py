@@ -81,9 +81,9 @@ def _composite_band(
     pixels = drawing.pixels.astype(np.float32) / 255
     coverage = drawing.coverage[..., None]
     kept = pixels[..., 3:]
-    # Line art is drawn on clear film, yet its figure is solid: it is lit on white paper.
+    # Line art is drawn on clear film, yet its character is solid: it is lit on white paper.
     paper = np.where(coverage - kept > ROUNDING, coverage - kept, 0)
-    # What lies behind the figure: pixels = drawn over background, solved for the background.
+    # What lies behind the character: pixels = drawn over background, solved for the background.
     behind = kept + paper - coverage
     paint = kept * pixels[..., :3] + paper - coverage * drawn
     ratio = illumination.floor_ratio

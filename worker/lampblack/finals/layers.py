@@ -1,4 +1,4 @@
-"""The layers of a multilayer final: what each light does, and what the figure is."""
+"""The layers of a multilayer final: what each light does, and what the character is."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class Layers:
 
     Attributes:
         lit: (H, W, 4) sRGB in 0..1, straight alpha: what the PNG is rounded from.
-        colour: scene-linear by name, 3 channels each, premultiplied with the figure's coverage:
-            ``diffuse`` + ``glossy`` = ``light1`` + ... + ``ambient`` is the light on the figure
+        colour: scene-linear by name, 3 channels each, premultiplied with the character's coverage:
+            ``diffuse`` + ``glossy`` = ``light1`` + ... + ``ambient`` is the light on the character
             before it is bent below white; ``unlit`` is what was left as drawn; ``albedo``.
-        shadow: (H, W, 3), the floor's light with the figure over that without; 1 is none.
+        shadow: (H, W, 3), the floor's light with the character over that without; 1 is none.
         ink: (H, W, 4), the line, scene-linear, premultiplied.
-        normal: (H, W, 3), x right, y up, z to the viewer; 0 outside the figure.
+        normal: (H, W, 3), x right, y up, z to the viewer; 0 outside the character.
         depth: (H, W, 1), height above the paper, canvas pixels, towards the viewer.
     """
 

@@ -92,7 +92,7 @@ def _middle(relief: Relief) -> Floats:
 
 def _turned(vertices: Floats, middle: Floats, degrees: float) -> Floats:
     """``vertices`` about the upright axis through ``middle``, which becomes the origin; positive
-    brings the figure's left side forward."""
+    brings the character's left side forward."""
     x, y, z = (vertices - middle).T
     cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     turned: Floats = np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=1, dtype=np.float32)

@@ -40,7 +40,7 @@ class LightContribution:
     amounts: tuple[float, ...]
     weight: Floats
     light: AreaLight | None
-    subject: Literal["figure", "floor"]
+    subject: Literal["character", "floor"]
     area: Box
     canvas: Canvas
     floor: Floor | None
@@ -81,8 +81,8 @@ def contributions_of(
     lights = [(light, hex_linear(light.colour) * np.float32(light.power)) for light in scene.lights]
     ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
     found = []
-    for subject in ("figure", "floor") if floor else ("figure",):
-        area = character if subject == "figure" else whole
+    for subject in ("character", "floor") if floor else ("character",):
+        area = character if subject == "character" else whole
         for light, weight in (*lights, (None, ambient)):
             if not weight.any():
                 continue

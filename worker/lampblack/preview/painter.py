@@ -192,7 +192,7 @@ class Painter:
             for contribution, light in zip(view.contributions, lights, strict=True)
         ]
         light = Illumination(
-            character=[(w, light.first, light.second) for s, w, light in pairs if s == "figure"],
+            character=[(w, light.first, light.second) for s, w, light in pairs if s == "character"],
             floor=[(w, light.first, light.second) for s, w, light in pairs if s == "floor"],
             character_area=view.character,
             floor_area=(0.0, 0.0, float(drawing.size[0]), float(drawing.size[1])),

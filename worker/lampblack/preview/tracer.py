@@ -154,7 +154,7 @@ class Tracer:
         for contribution in missing:
             begin = time.perf_counter()
             self._accumulate(contribution, surface, self._first_level(contribution), PASSING)
-            if contribution.light is not None and contribution.subject == "figure":
+            if contribution.light is not None and contribution.subject == "character":
                 self._keep_pace(time.perf_counter() - begin)
         self.painter.offer(request)
         return True
@@ -252,7 +252,7 @@ class Tracer:
         relief = Relief(corners, np.array([[0, 2, 1]], np.int32))
         white = np.ones((3, 3), np.float32), np.zeros(3, np.float32), np.ones(3, np.float32)
         light = AreaLight(4, 4, 4, 4)
-        job = Expose(canvas, (0, 0, 8, 8), size, light, None, "figure", 1, 0, 1, True)
+        job = Expose(canvas, (0, 0, 8, 8), size, light, None, "character", 1, 0, 1, True)
         self.state.renderer = "starting"
         try:
             self.renderer.expose(Surface(relief, *white), job)

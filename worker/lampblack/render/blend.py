@@ -34,7 +34,7 @@ def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit
     stage.set_canvas(job.canvas)
     stage.set_floor(job.floor, job.canvas)
     stage.set_view(job.view, job.size, job.canvas)
-    stage.set_subject("figure")
+    stage.set_subject("character")
     objects = stage.scene.collection.objects
     bpy.data.objects.remove(objects["twin"])
     lamp = objects["lamp"]
@@ -42,7 +42,7 @@ def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit
         _place_lamp(stage, lamp, light, job, f"light {number}")
     bpy.data.objects.remove(lamp)
     _set_ambient(stage, job)
-    _dress(objects["figure"], ink, diffuse, unlit, job)
+    _assign_materials(objects["figure"], ink, diffuse, unlit, job)
     floor = objects["floor"]
     if job.floor is None:
         bpy.data.objects.remove(floor)
@@ -80,10 +80,12 @@ def _set_ambient(stage: Stage, job: SaveBlend) -> None:
     stage.scene.world.name = f"ambient, {AMBIENT_SHEEN:.0%} to glossy rays"
 
 
-def _dress(figure: Any, ink: Floats, diffuse: Floats, unlit: Floats, job: SaveBlend) -> None:
+def _assign_materials(
+    character: Any, ink: Floats, diffuse: Floats, unlit: Floats, job: SaveBlend
+) -> None:
     """One material: what the composite does with the light, done by shaders. The line is a packed
     picture, glowing in its own colour over the lit fill."""
-    mesh = figure.data
+    mesh = character.data
     for name, values in (("diffuse", diffuse), ("unlit", unlit)):
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
     _unwrap(mesh, job)

@@ -81,7 +81,7 @@ class RenderChild:
         """Gather samples of one source, a piece at a time; see ``Expose``.
 
         Returns:
-            When developed, diffuse and glossy light of the figure, or cast and open light of
+            When developed, diffuse and glossy light of the character, or cast and open light of
             the floor, (h, w, 3) as in ``LightPasses``; otherwise nothing.
 
         Raises:
@@ -103,7 +103,7 @@ class RenderChild:
 
         Args:
             request: its lights with their colours and powers.
-            ink: (H, W, 4) float32 sRGB, straight alpha: the line over the figure.
+            ink: (H, W, 4) float32 sRGB, straight alpha: the line over the character.
             diffuse, unlit: (V,) float32, 1 where a vertex is diffuse, or left as drawn.
 
         Raises:

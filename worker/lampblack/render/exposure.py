@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .denoise import Denoiser
 from .engine import render_passes
 from .stage import Stage
-from .trace import figure_light, floor_light, floor_passes
+from .trace import character_light, floor_light, floor_passes
 from .wire import Expose
 
 Floats = NDArray[np.float32]
@@ -20,7 +20,7 @@ Floats = NDArray[np.float32]
 @dataclass
 class Exposure:
     """The samples gathered so far; ``views`` sums the passes of one render or, of the floor,
-    of the render with the figure and of that without."""
+    of the render with the character and of that without."""
 
     job: Expose | None = None
     spp: int = 0
@@ -28,7 +28,7 @@ class Exposure:
 
     def expose(self, stage: Stage, denoiser: Denoiser, job: Expose) -> tuple[Floats, ...]:
         """Gather the samples of ``job``; the light so far if it is to be developed: diffuse and
-        glossy of the figure, or cast and open light of the floor, (h, w, 3).
+        glossy of the character, or cast and open light of the floor, (h, w, 3).
 
         Raises:
             RuntimeError: Blender or the denoiser failed, or ``job`` continues another exposure.
@@ -42,8 +42,8 @@ class Exposure:
         if not job.develop:
             return ()
         views = [_divided(sums, self.spp) for sums in self.views]
-        if job.subject == "figure":
-            return figure_light(views[0], denoiser, "fast")
+        if job.subject == "character":
+            return character_light(views[0], denoiser, "fast")
         return floor_light(views[0], views[1], denoiser, "fast")
 
     def _gather(self, stage: Stage, job: Expose) -> None:
@@ -52,8 +52,8 @@ class Exposure:
         stage.set_source(job.light, job.canvas)
         stage.set_samples(job.spp, job.first, job.count)
         stage.set_view(job.view, job.size, job.canvas)
-        if job.subject == "figure":
-            stage.set_subject("figure")
+        if job.subject == "character":
+            stage.set_subject("character")
             views = [render_passes(stage.scene)]
         else:
             views = [floor_passes(stage, subject) for subject in ("floor", "bare floor")]

@@ -17,11 +17,11 @@ class LightPasses:
     Attributes:
         diffuse: irradiance over pi with the albedo divided out: a white wall fully lit is 1.
         glossy: reflected radiance of the glossy lobe with its own colour divided out.
-        floor: irradiance over pi of the floor with the figure on it: its shadow, and the
+        floor: irradiance over pi of the floor with the character on it: its shadow, and the
             colour that bleeds from it; None without a floor.
-        open_floor: the same without the figure; equal to ``floor`` where nothing is cast.
+        open_floor: the same without the character; equal to ``floor`` where nothing is cast.
             The shadow is the ratio of the two, each summed over the lights, since a light may
-            reach the floor by way of the figure alone.
+            reach the floor by way of the character alone.
     """
 
     diffuse: NDArray[np.float32]

@@ -28,7 +28,7 @@ class Sampling:
 
 @dataclass(frozen=True)
 class Quality:
-    """Settings of one preset: ``light`` for each area light on the figure, ``ambient`` for
+    """Settings of one preset: ``light`` for each area light on the character, ``ambient`` for
     the ambient light on it, ``floor`` for the floor under each of them; ``mesh_stride`` is
     the pixels between two vertices of the relief."""
 

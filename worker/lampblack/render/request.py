@@ -81,7 +81,7 @@ def vertex_pixels(
     labels: NDArray[np.int16], vertices: NDArray[np.float32]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """(V,) rows and (V,) columns of the pixel of ``labels``, (H, W), that each vertex stands on;
-    for those past the figure's edge, of the nearest pixel inside."""
+    for those past the character's edge, of the nearest pixel inside."""
     height, width = labels.shape
     column = np.clip(vertices[:, 0].astype(np.intp), 0, width - 1)
     row = np.clip(vertices[:, 1].astype(np.intp), 0, height - 1)

@@ -44,9 +44,9 @@ class Stage:
         self._set_engine()
         self._surface: SurfaceArrays | None = None
         self._canvas: Canvas | None = None
-        self._figure = self._add("figure", bpy.data.meshes.new("figure"))
+        self._character = self._add("figure", bpy.data.meshes.new("figure"))
         # A mesh with two users keeps its BVH to itself, so a moved light leaves it standing.
-        self._twin = self._add("twin", self._figure.data)
+        self._twin = self._add("twin", self._character.data)
         self._twin.location = (0, 0, -10 * FLOOR_REACH)
         self._twin.scale = (1e-3, 1e-3, 1e-3)
         _set_visible(self._twin, "")
@@ -83,8 +83,8 @@ class Stage:
         """Build the relief for ``canvas``, if that is not what stands there already."""
         if canvas == self._canvas or self._surface is None:
             return
-        old, mesh = self._figure.data, _figure_mesh(*self._surface, canvas)
-        self._figure.data = self._twin.data = mesh
+        old, mesh = self._character.data, _character_mesh(*self._surface, canvas)
+        self._character.data = self._twin.data = mesh
         for material in old.materials:
             bpy.data.materials.remove(material)
         bpy.data.meshes.remove(old)
@@ -134,15 +134,17 @@ class Stage:
             # Radiance that lights a facing surface at distance 1 to an irradiance of pi.
             self._lamp.data.energy = math.pi * (radius**2 + 1) / radius**2
 
-    def set_subject(self, subject: Literal["figure", "floor", "bare floor"]) -> None:
+    def set_subject(self, subject: Literal["character", "floor", "bare floor"]) -> None:
         """Choose what the camera sees; the other is still there for the light it throws.
 
-        The floor never casts a shadow, and under the figure's own render it sinks until all
-        of the figure stands above it: a figure may dip below the line without a seam.
+        The floor never casts a shadow, and under the character's own render it sinks until all
+        of the character stands above it: a character may dip below the line without a seam.
         """
-        _set_visible(self._figure, {"figure": "cdgs", "floor": "dgs", "bare floor": ""}[subject])
-        _set_visible(self._floor, "dg" if subject == "figure" else "cdg")
-        self._floor.location = self._floor_places["sunk" if subject == "figure" else "standing"]
+        _set_visible(
+            self._character, {"character": "cdgs", "floor": "dgs", "bare floor": ""}[subject]
+        )
+        _set_visible(self._floor, "dg" if subject == "character" else "cdg")
+        self._floor.location = self._floor_places["sunk" if subject == "character" else "standing"]
 
     def set_sampling(self, sampling: Sampling) -> None:
         """Set samples per pixel."""
@@ -223,7 +225,7 @@ def _set_visible(thing: Any, rays: str) -> None:
     thing.visible_shadow = "s" in rays
 
 
-def _figure_mesh(
+def _character_mesh(
     vertices: Floats,
     faces: NDArray[np.int32],
     albedo: Floats,
@@ -247,11 +249,11 @@ def _figure_mesh(
     for name, values in (("gloss", gloss), ("roughness", roughness)):
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
     mesh.update()
-    mesh.materials.append(_figure_material(glossy=bool(gloss.any())))
+    mesh.materials.append(_character_material(glossy=bool(gloss.any())))
     return mesh
 
 
-def _figure_material(*, glossy: bool) -> Any:
+def _character_material(*, glossy: bool) -> Any:
     """Diffuse in the albedo, plus a white GGX lobe where the gloss says so."""
     material = bpy.data.materials.new("figure")
     nodes, links = material.node_tree.nodes, material.node_tree.links

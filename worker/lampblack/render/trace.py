@@ -1,4 +1,4 @@
-"""One source's light: traced, denoised, and continued past the figure's edge."""
+"""One source's light: traced, denoised, and continued past the character's edge."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .wire import Trace
 Floats = NDArray[np.float32]
 
 FAINT = np.float32(0.05)
-UNSEEN = 0.01  # a change that only mottles: paper far from the figure stays as it was
+UNSEEN = 0.01  # a change that only mottles: paper far from the character stays as it was
 
 
 def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
@@ -32,8 +32,8 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     sampling = job.quality.ambient if job.light is None else job.quality.light
     stage.set_sampling(sampling)
     stage.set_view(job.view, sampling.size(*job.view[2:]), job.canvas)
-    stage.set_subject("figure")
-    diffuse, glossy = figure_light(render_passes(stage.scene), denoiser, job.quality.denoise)
+    stage.set_subject("character")
+    diffuse, glossy = character_light(render_passes(stage.scene), denoiser, job.quality.denoise)
     if job.floor is None:
         return LightPasses(diffuse, glossy)
     stage.set_sampling(job.quality.floor)
@@ -42,10 +42,10 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     return LightPasses(diffuse, glossy, *floor_light(cast, free, denoiser, job.quality.denoise))
 
 
-def figure_light(
+def character_light(
     passes: dict[str, Floats], denoiser: Denoiser, quality: DenoiseQuality
 ) -> tuple[Floats, Floats]:
-    """Diffuse and glossy light on the figure without their colour, denoised, (h, w, 3)."""
+    """Diffuse and glossy light on the character without their colour, denoised, (h, w, 3)."""
     diffuse, glossy = (_clean(passes, kind, denoiser, quality) for kind in ("Diffuse", "Glossy"))
     return diffuse, glossy
 
@@ -53,7 +53,7 @@ def figure_light(
 def floor_light(
     cast: dict[str, Floats], free: dict[str, Floats], denoiser: Denoiser, quality: DenoiseQuality
 ) -> tuple[Floats, Floats]:
-    """Irradiance over pi of the floor with the figure on it and without, (h, w, 3), from the
+    """Irradiance over pi of the floor with the character on it and without, (h, w, 3), from the
     passes of both.
 
     Both renders draw the same random numbers, so their ratio is free of noise but in the
@@ -85,7 +85,7 @@ def fill(image: Floats, inside: NDArray[np.bool_]) -> Floats:
 def _clean(
     passes: dict[str, Floats], kind: str, denoiser: Denoiser, quality: DenoiseQuality
 ) -> Floats:
-    """One kind of light on the figure without its colour, denoised, (h, w, 3).
+    """One kind of light on the character without its colour, denoised, (h, w, 3).
 
     Filled before it is denoised: the denoiser smears the dark outside into the edge.
     """

@@ -56,7 +56,7 @@ class Expose(msgspec.Struct, tag=True):
     size: tuple[int, int]
     light: AreaLight | None
     floor: Floor | None
-    subject: Literal["figure", "floor"]
+    subject: Literal["character", "floor"]
     spp: int
     first: int
     count: int
@@ -65,7 +65,7 @@ class Expose(msgspec.Struct, tag=True):
 
 class SaveBlend(msgspec.Struct, tag=True):
     """Write all of a scene to ``path``, a .blend of ``size`` pixels. Arrays: the ink, (H, W, 4)
-    sRGB with straight alpha, and where the figure is diffuse and unlit, (V,). Answered by
+    sRGB with straight alpha, and where the character is diffuse and unlit, (V,). Answered by
     Traced, without arrays, or Failed."""
 
     canvas: Canvas
