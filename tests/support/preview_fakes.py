@@ -27,7 +27,7 @@ from lampblack.protocol import (
     decode,
     frame_digest,
 )
-from lampblack.render import Expose, Surface
+from lampblack.render import Accumulate, Surface
 from lampblack.scene import Scene
 from lampblack.service.handlers import handle
 from lampblack.service.service import Service
@@ -45,8 +45,8 @@ class FakeRenderer:
 
     def __init__(self) -> None:
         self.level = 1.0
-        self.jobs: list[Expose] = []
-        self.before: Callable[[Expose], None] = lambda job: None
+        self.jobs: list[Accumulate] = []
+        self.before: Callable[[Accumulate], None] = lambda job: None
         self.starts = 0
         self.alive = True
         self.pid = None
@@ -55,13 +55,13 @@ class FakeRenderer:
         self.starts += not self.alive
         self.alive = True
 
-    def expose(self, surface: Surface, job: Expose) -> tuple[Floats, ...]:
+    def accumulate(self, surface: Surface, job: Accumulate) -> tuple[Floats, ...]:
         self.before(job)
         self.jobs.append(job)
         width, height = job.size
         light = np.full((height, width, 3), self.level, np.float32)
         first = light if job.subject == "character" else light / 2
-        return (first, light) if job.develop else ()
+        return (first, light) if job.resolve else ()
 
     def kill(self) -> None:
         self.alive = False

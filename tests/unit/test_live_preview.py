@@ -21,7 +21,7 @@ from lampblack.errors import (
 )
 from lampblack.preview import request as requests
 from lampblack.protocol import Bye, Cancel
-from lampblack.render import Expose
+from lampblack.render import Accumulate
 from lampblack.scene import Ambient, AreaLight, Floor, Scene, default_scene
 from lampblack.service.faults import error_code
 from support.drawings import draw_ball
@@ -159,7 +159,7 @@ def test_refinement_is_left_when_something_changes(stage: Stage) -> None:
     look_at_ball(stage, ONE, scene(10))
     stage.renderer.jobs.clear()
 
-    def change(job: Expose) -> None:
+    def change(job: Accumulate) -> None:
         if job.spp > 1 and job.light and job.light.x == 30:
             stage.set_scene(ONE, scene(50))
             stage.service.turn()
@@ -193,9 +193,9 @@ def test_a_renderer_lost_now_and_then_is_no_failure(stage: Stage) -> None:
 
 def test_light_that_cannot_be_traced_is_given_up(stage: Stage) -> None:
     look_at_ball(stage, ONE, scene(10))
-    tried: list[Expose] = []
+    tried: list[Accumulate] = []
 
-    def lose(job: Expose) -> None:
+    def lose(job: Accumulate) -> None:
         if job.light and job.light.x == 30:
             tried.append(job)
             raise RenderError("lost")
@@ -313,7 +313,7 @@ def test_threads_report_what_they_meet_and_live_on(running: Stage) -> None:
     serve(1)
     faults = [ValueError("odd")]
 
-    def fail(job: Expose) -> None:
+    def fail(job: Accumulate) -> None:
         if faults:
             raise faults.pop()
 

@@ -1,6 +1,6 @@
-"""The one way from a drawing to a lit drawing: drawing -> surface -> passes -> picture.
+"""The path from a drawing to a lit drawing: drawing -> surface -> passes -> picture.
 
-The command line, the farm and the live worker all go this way.
+The command line, the farm and the live worker all use it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .surface import guided_filter, solve
 MAX_SURFACE_PX = 2048
 """Longest side at which a surface is solved; larger pictures are lit at this size."""
 QUICK_PX = 500
-"""Longest side of a drawing that is prepared quickly."""
+"""Longest side at which a drawing is prepared in quick detail."""
 
 Progress = Callable[[float], None]
 
@@ -42,7 +42,7 @@ class Predictor(Protocol):
 
     @property
     def identity(self) -> str:
-        """A name for the weights."""
+        """A digest of the weights."""
 
     def predict(
         self,
@@ -61,25 +61,26 @@ class Renderer(Protocol):
 
     @property
     def pid(self) -> int | None:
-        """Its process, None while there is none."""
+        """ID of its process; None if it does not run."""
 
     def start(self) -> None:
-        """Begin to load, unless it runs."""
+        """Start the renderer, unless it runs."""
 
     def render(self, request: RenderRequest) -> Passes:
         """Trace every light of ``request``."""
 
     def kill(self) -> None:
-        """End a render in progress, which then raises; any thread may call this."""
+        """End the current render, which then raises; any thread may call this."""
 
     def close(self) -> None:
-        """End it; safe to call twice."""
+        """End the renderer; safe to call twice."""
 
 
 class Pipeline:
-    """Drawing -> normals -> surface -> passes -> picture; each result is kept while it holds.
+    """Drawing -> normals -> surface -> passes -> picture; results are cached by their inputs.
 
-    Use as a context manager: it owns the renderer. Nothing is loaded before it is needed.
+    Use as a context manager: it owns the renderer. Network and renderer are loaded when they are
+    needed.
 
     Args:
         cache: keeps normals and heights across runs.
@@ -117,16 +118,16 @@ class Pipeline:
         self.close()
 
     def close(self) -> None:
-        """End the renderer and drop its light; the next render starts it again."""
+        """End the renderer and drop cached light. The next render starts it again."""
         self.renderer.close()
         self._light_passes = LightPassCache()
 
     def interrupt(self) -> None:
-        """End a render in progress, which then raises; any thread may call this."""
+        """End the current render, which then raises; any thread may call this."""
         self.renderer.kill()
 
     def warm_up(self) -> None:
-        """Load the network and start the renderer before the first drawing comes."""
+        """Load the network and start the renderer before the first drawing."""
         self.renderer.start()
         _ = self._predictor
 
@@ -142,8 +143,8 @@ class Pipeline:
         progress: Progress = lambda share: None,
         neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
-        """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask.
-        With ``neighbours``, it is smoothed over time."""
+        """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask. With
+        ``neighbours`` it passes the temporal filter."""
         key = digest_of(
             "normals", self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
         )
@@ -159,7 +160,7 @@ class Pipeline:
         return self._temporal_filter.smooth(predicted, drawing.mask, here, neighbours.load())
 
     def thumbnail(self, drawing: Drawing) -> RegistrationThumbnail:
-        """What neighbours in time need of the drawing, about 4 MB."""
+        """The drawing's registration thumbnail, about 4 MB."""
         return self._thumbnail(drawing, self.normals(drawing))
 
     def _thumbnail(self, drawing: Drawing, normals: NDArray[np.float32]) -> RegistrationThumbnail:
@@ -172,7 +173,8 @@ class Pipeline:
         progress: Progress = lambda share: None,
         neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
-        """(h, w) float32 height in canvas pixels; the drawing's size, or capped below it."""
+        """(h, w) float32 height in canvas pixels, at the drawing's size or less (see
+        ``surface_step``)."""
         made_from = [self._predictor.identity, self.options, drawing.lines, drawing.mask]
         if neighbours is not None:
             made_from += [drawing.albedo, neighbours.keys]
@@ -198,11 +200,11 @@ class Pipeline:
         progress: Progress = lambda share: None,
         with_normals: bool = False,
     ) -> PreparedDrawing:
-        """Prepare a drawing in full detail, as finals are lit.
+        """Prepare a drawing in full detail, as for finals.
 
         Args:
-            neighbours: smooth its normals over time.
-            digest: names the drawing.
+            neighbours: for the temporal filter of its normals.
+            digest: identifies the drawing.
             progress: called with the share done, 0 to 1, of predicting normals.
             with_normals: keep them in the result.
         """
@@ -223,8 +225,8 @@ class Pipeline:
         )
 
     def prepare_quick(self, planes: DrawingPlanes, digest: str = "") -> PreparedDrawing:
-        """Prepare a drawing within a fraction of a second: small, from normals of quick quality,
-        which are neither kept nor smoothed.
+        """Prepare a drawing in quick detail, in a fraction of a second: small, from quick normals,
+        which are neither cached nor filtered.
 
         Raises:
             DrawingError: there is nothing to light.
@@ -251,9 +253,9 @@ class Pipeline:
     def light(
         self, prepared: PreparedDrawing, scene: Scene, surface: Surface | None = None
     ) -> Passes:
-        """Trace the lights of ``scene``, but for those that the last call traced over the same
-        drawing. A ``surface`` that is there is not made again: with one, a thread of its own may
-        trace while another makes the next."""
+        """Trace the lights of ``scene``, except those that the last call traced on the same
+        drawing. ``surface`` is used if given: then one thread can trace while another prepares the
+        next surface."""
 
         def trace(asked: Scene, ambient: bool) -> Passes:
             stride = QUALITIES[asked.quality].mesh_stride
@@ -266,7 +268,7 @@ class Pipeline:
     def render(
         self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
     ) -> NDArray[np.uint8]:
-        """(H, W, 4) uint8, sRGB, straight alpha: the drawing, lit."""
+        """The lit drawing, (H, W, 4) uint8 sRGB, straight alpha."""
         prepared = self.prepare(drawing, neighbours)
         return composite(drawing, self.light(prepared, scene), scene)
 
@@ -279,7 +281,7 @@ def surface_step(drawing: Drawing) -> int:
 def _shrink_normals(
     normals: NDArray[np.float32], mask: NDArray[np.bool_], step: int
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Average blocks of ``step`` pixels; a block belongs to the character if its middle does."""
+    """Average blocks of ``step`` x ``step`` pixels. A block is inside if its middle pixel is."""
     rows, columns = mask.shape[0] // step, mask.shape[1] // step
     planes = torch.from_numpy(normals[: rows * step, : columns * step]).permute(2, 0, 1)
     pooled = torch.nn.functional.avg_pool2d(planes, step).permute(1, 2, 0).numpy()
@@ -289,7 +291,7 @@ def _shrink_normals(
 
 
 def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Lines and mask at half the size; of a character too fine for that, as they are."""
+    """Lines and mask at half the size, or at full size if nothing of the mask would remain."""
     size = max(1, drawing.size[0] // 2), max(1, drawing.size[1] // 2)
     cover = Image.fromarray(drawing.mask.astype(np.uint8) * 255)
     mask = np.asarray(cover.resize(size, Image.Resampling.BOX)) > 96

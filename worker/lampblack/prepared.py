@@ -1,4 +1,4 @@
-"""A drawing prepared to be lit: its layers, its height, and the surface that light falls on."""
+"""Prepared drawings: layers, height and surface, ready to be lit."""
 
 from __future__ import annotations
 
@@ -22,18 +22,19 @@ Sample = TypeVar("Sample", bound=np.generic)
 
 @dataclass(frozen=True, eq=False)
 class PreparedDrawing:
-    """One drawing, ready to be lit, for finals and for previews.
+    """A drawing that is ready to be lit, for finals and for previews.
 
     Attributes:
-        digest: names the drawing, where drawings are told apart by content; else empty.
-        detail: full is what finals are made from; quick is small, from normals of quick quality.
-        size: (width, height) of the drawing, pixels.
-        layers: of the drawing, ``step`` of its pixels a pixel.
-        height: (h, w) float32, pixels of the drawing towards the viewer, ``scale`` of them a
-            pixel. mask: (h, w) bool, the character.
-        normals: x right, y up, z to the viewer, 0 outside the mask; of the size of ``layers`` or
-            of ``mask``, float32; (h, w, 3) float16 once compact. None if they were not asked for.
-        box: around the character, pixels of the drawing.
+        digest: identifies the drawing; empty where drawings are not identified by content.
+        detail: ``full`` for finals; ``quick`` is small and has quick normals.
+        size: (width, height) of the drawing in pixels.
+        layers: the drawing's layers; one of their pixels is ``step`` pixels of the drawing.
+        height: (h, w) float32, in pixels of the drawing towards the viewer; one element is
+            ``scale`` pixels of the drawing wide.
+        mask: (h, w) bool, the character.
+        normals: x right, y up, z to the viewer, 0 outside the mask; float32 at the size of
+            ``layers`` or ``mask``, or (h, w, 3) float16 when compact. None if not requested.
+        box: box around the character, in pixels of the drawing.
     """
 
     digest: str
@@ -49,12 +50,12 @@ class PreparedDrawing:
 
     @property
     def nbytes(self) -> int:
-        """Memory it takes."""
+        """Memory in bytes."""
         normals = 0 if self.normals is None else self.normals.nbytes
         return self.layers.nbytes + self.height.nbytes + self.mask.nbytes + normals
 
     def compact(self) -> PreparedDrawing:
-        """The same in a third of the memory: layers of bytes, normals of half precision."""
+        """The same drawing in a third of the memory: byte layers, and normals as float16."""
         if isinstance(self.layers, ByteLayers):
             return self
         normals = None
@@ -74,13 +75,13 @@ class PreparedDrawing:
         return replace(relief, vertices=relief.vertices * scale)
 
     def surface(self, scene: Scene, stride: int) -> Surface:
-        """What the lights of ``scene`` fall on: its relief scale and its materials count."""
+        """The surface to light: with the relief scale and the materials of ``scene``."""
         return self.with_materials(
             self.relief(stride=stride, relief_scale=scene.relief_scale), scene
         )
 
     def with_materials(self, relief: Relief, scene: Scene) -> Surface:
-        """``relief``, in pixels of the drawing, in the materials of ``scene``."""
+        """``relief``, in pixels of the drawing, with the materials of ``scene``."""
         labels = self.layers.labels
         row, column = vertex_pixels(labels, relief.vertices / np.float32(self.step))
         albedo = self.layers.albedo_at(row, column)
@@ -93,8 +94,8 @@ def block_middles(plane: NDArray[Sample], step: int) -> NDArray[Sample]:
 
 
 def character_box(mask: NDArray[np.bool_], step: int) -> Box:
-    """A box around ``mask``, (H, W) bool, with a margin; in pixels of which a pixel of the mask
-    has ``step``."""
+    """A box around ``mask``, (H, W) bool, with a margin. One pixel of the mask is ``step`` units of
+    the box."""
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
     left, top = int(columns[0]) - 2, int(rows[0]) - 2
     width, height = int(columns[-1]) + 3 - left, int(rows[-1]) + 3 - top

@@ -37,14 +37,14 @@ def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
     with RenderChild() as child:
         surface = preview_surface(drawing, scene)
 
-        def trace(moved: LightContribution, *, develop: bool) -> float:
+        def trace(moved: LightContribution, *, resolve: bool) -> float:
             begin = time.perf_counter()
-            child.expose(surface, moved.exposure(level, 0, 1, develop=develop))
+            child.accumulate(surface, moved.accumulation(level, 0, 1, resolve=resolve))
             return time.perf_counter() - begin
 
         for level in (*MOVING, REFINEMENT["light"][0]):
-            for develop, name in ((False, "cycles"), (True, "cycles_and_denoiser")):
-                taken = [trace(_moved(contribution, n), develop=develop) for n in range(RENDERS)]
+            for resolve, name in ((False, "cycles"), (True, "cycles_and_denoiser")):
+                taken = [trace(_moved(contribution, n), resolve=resolve) for n in range(RENDERS)]
                 figures[f"ms_{name}_{level.longest}px_1spp"] = float(np.median(taken[3:]) * 1000)
     return figures
 

@@ -1,4 +1,4 @@
-"""Compositing: light over the drawing's own colours, under its own ink."""
+"""Compositing: the light, the drawing's own colours, and its own ink."""
 
 from .composite import composite
 

@@ -1,4 +1,4 @@
-"""The composite over byte layers, for previews: the same sums in one compiled loop."""
+"""The composite of byte layers, for previews: the same computation in one compiled loop."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def composite_bytes(
 
     Args:
         layers: cut from a drawing.
-        crop: what of the drawing they show, the drawing's pixels.
+        crop: the part of the drawing that they show, in its pixels.
     """
     materials = MaterialTable.of(scene, layers.palette.colours)
     kinds = materials.diffuse.astype(np.uint8) + 2 * materials.glossy.astype(np.uint8)
@@ -57,7 +57,7 @@ def composite_bytes(
 
 
 def _unshaded(floor: Floats) -> NDArray[np.bool_]:
-    """(h, w) bool: no pixel of the drawing that falls into this one is in shadow."""
+    """(h, w) bool: no pixel of the drawing in this element is in shadow."""
     clear = (np.abs(floor - 1) < 1e-3).all(axis=2)
     return np.asarray(ndimage.minimum_filter(clear, 3, mode="nearest"))
 
@@ -73,8 +73,8 @@ def warm_up() -> None:
 
 
 def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, float, float]:
-    """(step, start) along x, then along y: pixel ``i`` of the layers lies at ``start + i * step``
-    across ``area``, which goes from 0 to 1."""
+    """(step, start) along x, then along y: pixel ``i`` of the layers is at ``start + i * step`` of
+    ``area``, which extends from 0 to 1."""
     found = []
     for axis in (0, 1):
         step = crop[axis + 2] / size[axis] / area[axis + 2]
@@ -120,7 +120,7 @@ def _light(
         for column in range(ink.shape[1]):
             alpha = pixels[row, column, 3] * byte
             cover = coverage[row, column] * byte
-            # Line art on clear film is lit on white paper, which is taken away again below.
+            # Line art without fill is lit on white paper, which is removed again below.
             paper = cover - alpha if cover - alpha > np.float32(ROUNDING) else zero
             behind = alpha + paper - cover
             across, down = on_ground[1] + column * on_ground[0], on_ground[3] + row * on_ground[2]

@@ -1,4 +1,4 @@
-"""A drawing's layers as bytes, cut to a crop at device resolution: what previews are lit on."""
+"""A drawing's layers as bytes, cut to a crop at device resolution, for previews."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ByteLayers:
         ink: (H, W) uint8. ink_colour: (H, W, 3) uint8 sRGB.
         coverage: (H, W) uint8.
         labels: (H, W) int16 index into ``palette.swatches``, -1 outside.
-        others, shares: (H, W) int16 and uint8, a second colour and its part of the pixel, see
+        others, shares: (H, W) int16 and uint8, the second label and its share of the pixel; see
             ``borders.mixed_labels``.
         palette: the flat colours.
     """
@@ -60,12 +60,12 @@ class ByteLayers:
         return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
 
     def cut(self, crop: Box, size: tuple[int, int]) -> ByteLayers:
-        """The part in ``crop`` at ``size`` (width, height) pixels; past the drawing's edges it
-        is empty. Averaged when that is smaller, interpolated when larger."""
+        """The part in ``crop`` at ``size`` (width, height) pixels; empty past the drawing's edges.
+        Averaged when it shrinks, interpolated when it enlarges."""
         place = _place(crop, size, self.size)
         albedo = _resized(self.albedo, place, size)
         labels = _nearest(self.labels, place, size)
-        # Where one pixel becomes several, so does the blend in it.
+        # Where a pixel becomes several, its mixture does too.
         larger = max(size[0] / crop[2], size[1] / crop[3])
         reach = min(_FARTHEST, math.ceil(1.5 * larger)) if larger > 1 else 1
         others, shares = _blends(labels, albedo, self.palette, reach)
@@ -112,8 +112,8 @@ def cut_picture(picture: Bytes, crop: Box, size: tuple[int, int]) -> Bytes:
 
 @dataclass(frozen=True)
 class _Place:
-    """``box`` (left, top, right, bottom) of the drawing goes to ``at`` (left, top) of the
-    result, ``size`` pixels large."""
+    """``box`` (left, top, right, bottom) of the drawing becomes ``size`` pixels at ``at`` (left,
+    top) of the result."""
 
     box: Box
     at: tuple[int, int]
@@ -121,7 +121,7 @@ class _Place:
 
 
 def _place(crop: Box, size: tuple[int, int], whole: tuple[int, int]) -> _Place | None:
-    """Where a crop lands; None where nothing of the drawing is in it."""
+    """The place of a crop's part of the drawing; None if the crop has no part of it."""
     x, y, width, height = crop
     step = width / size[0], height / size[1]
     ends = []
@@ -171,7 +171,7 @@ def _blends(
 
 
 def _ink_colour(layers: ByteLayers, place: _Place | None, size: tuple[int, int]) -> Bytes:
-    """Weighted by the ink: where there is none its colour means nothing."""
+    """The ink's colour, weighted by the ink: without ink it is undefined."""
     inked = np.concatenate([layers.ink_colour, np.zeros_like(layers.ink_colour[..., :1])], axis=2)
     inked[..., 3] = layers.ink
     part = _resized(premultiplied(inked), place, size)

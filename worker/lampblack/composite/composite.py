@@ -1,4 +1,4 @@
-"""The composite: light over the drawing's own colours, under its own ink."""
+"""The composite of the light, the drawing's own colours, and its own ink."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ def composite(
     scene: Scene,
     crop: Box | None = None,
 ) -> NDArray[np.uint8]:
-    """The drawing, lit, (H, W, 4) uint8 sRGB, for finals and for previews.
+    """The lit drawing, (H, W, 4) uint8 sRGB, for finals and for previews.
 
-    The character's fill is lit in scene-linear light, its ink laid over that, and the character
-    over the background, both in sRGB as the drawing program does it. Light of unit irradiance
-    gives the drawing back to within 1/255. What is brighter than white is bent below white, its
-    hue kept.
+    The character's fill is lit in scene-linear light. Then its ink is composited over the fill,
+    and the character over the background, both in sRGB as in the drawing program. Light of unit
+    irradiance gives the drawing back to within 1/255. Highlights brighter than white are
+    compressed below white; their hue is kept.
 
     Args:
-        layers: a drawing, composited in floating point, with straight alpha in the result; or
-            byte layers, composited in one fast loop, premultiplied as screens take it. The two
-            agree to 4 levels.
-        light: may be of another size than the layers. Of passes, the weights come from ``scene``.
-        scene: its materials, and its lights' colours and powers.
-        crop: what of the drawing byte layers show, the drawing's pixels; None is all of it.
+        layers: a ``Drawing`` is composited in floating point, and the result has straight alpha.
+            ``ByteLayers`` are composited in one fast loop, and the result is premultiplied, for
+            screens. The two agree to 4 levels.
+        light: may have another size than the layers. The weights of passes come from ``scene``.
+        scene: provides materials, and colours and powers of lights.
+        crop: the part of the drawing in the byte layers, in the drawing's pixels; None is all.
     """
     illumination = light if isinstance(light, Illumination) else Illumination.of(light, scene)
     if isinstance(layers, ByteLayers):

@@ -32,7 +32,7 @@ def composite_float(
     lit = np.zeros((*drawing.mask.shape, 4), np.uint8)
     for band, rgba in _bands(drawing, illumination, scene):
         rounded = np.rint(rgba * 255).astype(np.uint8)
-        # A colour nobody sees is left as the artist left it.
+        # Fully transparent pixels keep the artist's colour.
         lit[band.top : band.bottom] = np.where(
             rounded[..., 3:] > 0,
             rounded,
@@ -54,7 +54,7 @@ def composite_unrounded(
 def _bands(
     drawing: Drawing, illumination: Illumination, scene: Scene
 ) -> Iterator[tuple[Band, NDArray[np.float32]]]:
-    """Stretches of the lit drawing, (h, W, 4) in 0..1."""
+    """Bands of the lit drawing, (h, W, 4) in 0..1."""
     width, height = drawing.size
     rows = max(1, BAND_PIXELS // max(width, 1))
     for top in range(0, height, rows):
@@ -63,7 +63,7 @@ def _bands(
 
 
 def _rows(drawing: Drawing, band: Band) -> Drawing:
-    """The part of ``drawing`` that lies in ``band``."""
+    """The rows of ``drawing`` in ``band``."""
     arrays: dict[str, Any] = {
         name: value[band.top : band.bottom]
         for name, value in vars(drawing).items()
@@ -81,9 +81,9 @@ def _composite_band(
     pixels = drawing.pixels.astype(np.float32) / 255
     coverage = drawing.coverage[..., None]
     kept = pixels[..., 3:]
-    # Line art is drawn on clear film, yet its character is solid: it is lit on white paper.
+    # Line art has no fill, but its character is solid: it is lit on white paper.
     paper = np.where(coverage - kept > ROUNDING, coverage - kept, 0)
-    # What lies behind the character: pixels = drawn over background, solved for the background.
+    # The background behind the character: pixels = drawn over background, solved for background.
     behind = kept + paper - coverage
     paint = kept * pixels[..., :3] + paper - coverage * drawn
     ratio = illumination.floor_ratio
@@ -104,12 +104,13 @@ def _lift_off_paper(
     kept: NDArray[np.float32],
     papered: NDArray[np.bool_],
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Take the white paper away again: the least opaque picture that looks the same over
-    white, so that line art's shading lies over whatever the artist puts beneath.
+    """Remove the white paper again. The result is the least opaque picture that looks the same
+    over white, so that the shading of line art works over any background.
 
     Args:
-        light: (H, W, 3) sRGB times ``alpha``. alpha, kept: (H, W, 1), with the paper and
-            as drawn. papered: (H, W, 1) where paper was put.
+        light: (H, W, 3) sRGB times ``alpha``.
+        alpha, kept: (H, W, 1) alpha with the paper, and as drawn.
+        papered: (H, W, 1) where paper was added.
     """
     over_white = light + 1 - alpha
     least = np.maximum(kept, 1 - over_white.min(axis=2, keepdims=True))
@@ -128,7 +129,7 @@ def _lit_fill(
 def character_light(
     drawing: Drawing, scene: Scene, illumination: Illumination, band: Band
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """Diffuse light, glossy light, and colours left as drawn, of the fill in ``band``;
+    """Diffuse light, glossy light, and colours that are shown as drawn, for the fill in ``band``;
     scene-linear (H, W, 3), unbounded."""
     albedo = linear(drawing.albedo)
     materials = MaterialTable.of(scene, drawing.palette.colours)
@@ -173,11 +174,11 @@ def _reflected(
 
 
 def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Bring light brighter than white below white, hue kept, scene-linear (H, W, 3).
+    """Compress highlights brighter than white, keeping their hue, scene-linear (H, W, 3).
 
-    The brightest channel is let be up to ``KNEE``, and up to the drawn colour's own, so that
-    unit irradiance stays exact; from there it bends towards 1, since clipping alone leaves a
-    flat patch with a hard edge.
+    The brightest channel is unchanged up to ``KNEE``, and up to that of the drawn colour, so that
+    unit irradiance stays exact. Above, it approaches 1 smoothly; clipping would leave a flat patch
+    with a hard edge.
     """
     peak = lit.max(axis=2, keepdims=True)
     knee = np.clip(drawn.max(axis=2, keepdims=True), KNEE, 1)
@@ -188,6 +189,6 @@ def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[n
 
 
 def _lay_ink(drawing: Drawing, fill: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The artist's line over the fill, sRGB (H, W, 3)."""
+    """The artist's line composited over the fill, sRGB (H, W, 3)."""
     ink = drawing.ink[..., None]
     return (fill + ink * (drawing.ink_colour - fill)).astype(np.float32)

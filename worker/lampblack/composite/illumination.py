@@ -1,4 +1,4 @@
-"""The light that falls on a drawing: all sources together, each times its weight."""
+"""Illumination: the weighted sum of the light of all sources on a drawing."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..render.passes import LightPasses, Passes
 from ..scene import Scene
 from .resample import Band, Box, enlarge
 
-FAINT = np.float32(1e-3)  # no light is no shadow, rather than 0 / 0
+FAINT = np.float32(1e-3)  # avoids 0 / 0: without light there is no shadow
 
 Floats = NDArray[np.float32]
 Weighted = tuple[Floats, Floats, Floats]
@@ -26,12 +26,12 @@ _DARK = np.zeros((1, 1, 3), np.float32)
 
 @dataclass(frozen=True, eq=False)
 class Illumination:
-    """The sources of light on a drawing, and their sums, made when they are needed.
+    """The sources of light on a drawing. Their sums are computed when they are needed.
 
     Attributes:
         character: the sources on the character. floor: those on the floor, if there is one.
-        character_area, floor_area: what of the drawing they cover, its pixels; None is
-            just what the layers show.
+        character_area, floor_area: the part of the drawing that they cover, in its pixels; None
+            is the part that the layers show.
     """
 
     character: Sequence[Weighted]
@@ -41,7 +41,7 @@ class Illumination:
 
     @staticmethod
     def of(passes: Passes, scene: Scene) -> Illumination:
-        """The light of ``scene``, traced white in ``passes`` that cover the whole drawing."""
+        """The light of ``scene``, from ``passes`` of white lights that cover the whole drawing."""
         return Illumination.sum_of(weigh(passes, scene))
 
     @staticmethod
@@ -68,8 +68,8 @@ class Illumination:
 
     @cached_property
     def floor_ratio(self) -> Floats | None:
-        """(h, w, 3), the floor's light with the character over that without it, 1 where no light
-        falls; None without a floor."""
+        """(h, w, 3), the floor's light with the character divided by that without it, 1 where no
+        light falls; None without a floor."""
         if not self.floor:
             return None
         cast = add_up([(weight, light) for weight, light, _ in self.floor])
@@ -78,7 +78,7 @@ class Illumination:
 
 
 def weigh(passes: Passes, scene: Scene) -> list[tuple[Floats, LightPasses]]:
-    """The sources that give light, each with its weight: its colour times its power."""
+    """The sources with power, each with its weight: colour times power."""
     weights = [hex_linear(light.colour) * np.float32(light.power) for light in scene.lights]
     weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
     return [
@@ -89,7 +89,7 @@ def weigh(passes: Passes, scene: Scene) -> list[tuple[Floats, LightPasses]]:
 
 
 def add_up(weighted: Sequence[tuple[Floats, Floats]]) -> Floats:
-    """Sum (3,) weights times (h, w, 3) pictures of one area, at the size of the largest."""
+    """The sum of (3,) weights times (h, w, 3) pictures of the same area, at the largest size."""
     if not weighted:
         return _DARK
     height = max(picture.shape[0] for _, picture in weighted)

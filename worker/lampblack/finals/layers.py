@@ -1,4 +1,4 @@
-"""The layers of a multilayer final: what each light does, and what the character is."""
+"""The layers of a multilayer EXR: the light of each source, and the character's own layers."""
 
 from __future__ import annotations
 

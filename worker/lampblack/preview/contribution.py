@@ -13,7 +13,7 @@ from ..colour import hex_linear
 from ..composite.resample import Box
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
-from ..render import Expose, Surface
+from ..render import Accumulate, Surface
 from ..scene import AreaLight, Canvas, Floor, Scene
 from .refinement import REFINEMENT, RefinementLevel
 
@@ -52,14 +52,16 @@ class LightContribution:
             return REFINEMENT["floor"]
         return REFINEMENT["light" if self.light else "ambient"]
 
-    def exposure(self, level: RefinementLevel, first: int, count: int, *, develop: bool) -> Expose:
+    def accumulation(
+        self, level: RefinementLevel, first: int, count: int, *, resolve: bool
+    ) -> Accumulate:
         """Ask for samples ``first`` to ``first + count`` of ``level``."""
         _, _, width, height = self.area
         scale = level.longest / max(width, height)
         size = max(1, round(width * scale)), max(1, round(height * scale))
-        return Expose(
+        return Accumulate(
             self.canvas, self.area, size, self.light, self.floor, self.subject,
-            level.spp, first, count, develop,
+            level.spp, first, count, resolve,
         )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter
 
 from ..errors import RenderError, RenderRestartedError
 from ..prepared import PreparedDrawing
-from ..render import Expose, Surface
+from ..render import Accumulate, Surface
 from ..scene import AreaLight, Canvas, Scene
 from ..surface import Relief
 from .contribution import LightContribution, preview_surface, surface_key
@@ -54,7 +54,7 @@ class PreviewRenderer(Protocol):
 
     def start(self) -> None: ...
 
-    def expose(self, surface: Surface, job: Expose) -> tuple[NDArray[np.float32], ...]: ...
+    def accumulate(self, surface: Surface, job: Accumulate) -> tuple[NDArray[np.float32], ...]: ...
 
     def kill(self) -> None: ...
 
@@ -194,14 +194,14 @@ class Tracer:
             for first in range(0, how.spp, how.at_once):
                 count = min(how.at_once, how.spp - first)
                 whole = count == how.spp
-                found = self.renderer.expose(
-                    surface, contribution.exposure(how, first, count, develop=whole)
+                found = self.renderer.accumulate(
+                    surface, contribution.accumulation(how, first, count, resolve=whole)
                 )
                 if level >= LOW and (self.state.changes != began or self.state.closing):
                     return False
             if not found:
-                found = self.renderer.expose(
-                    surface, contribution.exposure(how, how.spp, 0, develop=True)
+                found = self.renderer.accumulate(
+                    surface, contribution.accumulation(how, how.spp, 0, resolve=True)
                 )
         except RenderError:
             self._failures[contribution.key] = self._failures.get(contribution.key, 0) + 1
@@ -252,10 +252,10 @@ class Tracer:
         relief = Relief(corners, np.array([[0, 2, 1]], np.int32))
         white = np.ones((3, 3), np.float32), np.zeros(3, np.float32), np.ones(3, np.float32)
         light = AreaLight(4, 4, 4, 4)
-        job = Expose(canvas, (0, 0, 8, 8), size, light, None, "character", 1, 0, 1, True)
+        job = Accumulate(canvas, (0, 0, 8, 8), size, light, None, "character", 1, 0, 1, True)
         self.state.renderer = "starting"
         try:
-            self.renderer.expose(Surface(relief, *white), job)
+            self.renderer.accumulate(Surface(relief, *white), job)
         except RenderError as error:
             self._recover(error)
         self.state.renderer = "idle"

@@ -1,4 +1,4 @@
-"""Rendering: Cycles in a child process turns a relief and lights into passes of light."""
+"""Rendering: Cycles in a child process traces the light passes of a relief."""
 
 from .client import RenderChild
 from .passes import LightPasses, Passes
@@ -10,11 +10,11 @@ from .request import (
     frame_request,
     vertex_pixels,
 )
-from .wire import Expose
+from .wire import Accumulate
 
 __all__ = [
     "QUALITIES",
-    "Expose",
+    "Accumulate",
     "LightPasses",
     "Passes",
     "Quality",

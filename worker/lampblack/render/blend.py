@@ -1,4 +1,4 @@
-"""A frame's scene as a .blend, for those who go on in Blender; runs in the render child."""
+"""Export of a frame's scene as a .blend; runs in the render process."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ SAMPLES = 64
 
 
 def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit: Floats) -> None:
-    """Write the relief, the floor, all lights and the camera as they are set up here.
+    """Write the relief, the floor, all lights and the camera.
 
-    The stage is spoiled by this: build another. Opened in Blender and rendered, the file gives
-    the lit drawing but for Lampblack's own bend of highlights and its denoised passes.
+    The stage cannot be used afterwards. A render of the file in Blender gives the lit drawing,
+    except for Lampblack's compression of highlights and its denoised passes.
 
     Args:
         ink: (H, W, 4) sRGB, straight alpha: the line, laid over the light and not lit itself.
@@ -67,7 +67,7 @@ def _place_lamp(stage: Stage, lamp: Any, light: AreaLight, job: SaveBlend, name:
 
 
 def _set_ambient(stage: Stage, job: SaveBlend) -> None:
-    """The world in the ambient light's colour, dimmed to glossy rays as in every render here."""
+    """Set the world to the ambient light's colour, dimmed for glossy rays as in all renders."""
     tree = stage.scene.world.node_tree
     background = tree.nodes["Background"].inputs
     dim = background["Color"].links[0].from_socket
@@ -83,8 +83,8 @@ def _set_ambient(stage: Stage, job: SaveBlend) -> None:
 def _assign_materials(
     character: Any, ink: Floats, diffuse: Floats, unlit: Floats, job: SaveBlend
 ) -> None:
-    """One material: what the composite does with the light, done by shaders. The line is a packed
-    picture, glowing in its own colour over the lit fill."""
+    """Assign one material whose shaders do what the composite does with the light. The line is a
+    packed picture that emits its own colour over the lit fill."""
     mesh = character.data
     for name, values in (("diffuse", diffuse), ("unlit", unlit)):
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
@@ -148,7 +148,7 @@ def _packed(ink: Floats) -> Any:
 
 
 def _unwrap(mesh: Any, job: SaveBlend) -> None:
-    """Lay the drawing over the mesh from the front."""
+    """Project the drawing onto the mesh from the front."""
     places = np.zeros(3 * len(mesh.vertices), np.float32)
     mesh.attributes["position"].data.foreach_get("vector", places)
     corners = np.zeros(len(mesh.loops), np.int32)

@@ -1,6 +1,6 @@
-"""The render child: ``python -m lampblack.render.child``, the one place where Blender runs.
+"""The render process: ``python -m lampblack.render.child``. Only this process runs Blender.
 
-Reads requests on stdin and answers on what was stdout, until either closes.
+It reads requests from stdin and writes answers to its original stdout, until either closes.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from io import FileIO
 from typing import NoReturn
 
 from .wire import (
+    Accumulate,
     Array,
-    Expose,
     Failed,
     Load,
     Message,
@@ -31,26 +31,26 @@ Received = tuple[Message, list[Array]]
 
 
 def main() -> NoReturn:
-    """Serve requests until the parent goes away."""
+    """Serve requests until the parent ends."""
     answers = _private_stdout()
     inbox: queue.SimpleQueue[Received] = queue.SimpleQueue()
     threading.Thread(target=_read_requests, args=(inbox,), daemon=True).start()
 
+    from .accumulation import Accumulation
     from .denoise import Denoiser
-    from .exposure import Exposure
     from .stage import Stage, threads
     from .trace import trace
 
     stage, denoiser = Stage(), Denoiser(threads())
-    exposure = Exposure()
+    accumulation = Accumulation()
     while True:
         message, arrays = inbox.get()
         try:
             if isinstance(message, Load):
                 stage.set_surface(*arrays)  # type: ignore[arg-type]
-                exposure = Exposure()
-            elif isinstance(message, Expose):
-                send(answers, Traced(), exposure.expose(stage, denoiser, message))
+                accumulation = Accumulation()
+            elif isinstance(message, Accumulate):
+                send(answers, Traced(), accumulation.accumulate(stage, denoiser, message))
             elif isinstance(message, Trace):
                 light = trace(stage, denoiser, message)
                 found = (light.diffuse, light.glossy, light.floor, light.open_floor)
@@ -68,7 +68,8 @@ def main() -> NoReturn:
 
 
 def _private_stdout() -> FileIO:
-    """Keep stdout for the answers alone: Blender prints to descriptor 1 as it pleases."""
+    """A stream for the answers on the original stdout; descriptor 1, to which Blender prints, is
+    redirected."""
     answers = FileIO(os.dup(1), "wb")
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
@@ -77,7 +78,7 @@ def _private_stdout() -> FileIO:
 
 
 def _read_requests(inbox: queue.SimpleQueue[Received]) -> None:
-    """Queue requests; when the parent is gone, end at once, even amid a render."""
+    """Queue requests. When the parent has ended, end at once, even during a render."""
     requests = FileIO(sys.stdin.fileno(), "rb", closefd=False)
     try:
         while True:

@@ -1,4 +1,5 @@
-"""The parent's side of the render child: starts it, feeds it, survives it."""
+"""The parent's side of the render process: starts it, sends it requests, and replaces it if it
+dies."""
 
 from __future__ import annotations
 
@@ -22,21 +23,32 @@ from ..errors import RenderError
 from ..scene import Ambient, AreaLight
 from .passes import LightPasses, Passes
 from .request import RenderRequest, Surface
-from .wire import Array, Expose, Failed, Load, SaveBlend, Trace, Traced, WireError, receive, send
+from .wire import (
+    Accumulate,
+    Array,
+    Failed,
+    Load,
+    SaveBlend,
+    Trace,
+    Traced,
+    WireError,
+    receive,
+    send,
+)
 
-# The child gets only these: a drawing program's own library and Python paths would break it.
+# The child gets only these: library and Python paths of a drawing program would break it.
 KEPT_VARIABLES = ("PATH", "HOME", "LANG", "TMPDIR", "TEMP", "TMP", "SYSTEMROOT")
 
 
 class RenderChild:
-    """Cycles in a process of its own, so that it can be lost without losing the parent.
+    """Cycles in its own process, so that a crash does not end the parent.
 
-    Use as a context manager. The child starts at once and loads while the parent works on;
-    if it dies, the render at hand raises and the next one starts a fresh child. It is shut
-    off from the terminal's Ctrl-C and ends with the parent, however that ends.
+    Use as a context manager. The child starts at once, and loads while the parent continues. If
+    it dies, the current render raises and the next one starts a new child. It ignores Ctrl-C in
+    the terminal, and ends with the parent.
 
     Args:
-        niceness: how far the child stands back for others, 0 to 19.
+        niceness: of the child's process, 0 to 19.
 
     Example:
         >>> with RenderChild() as child:
@@ -65,8 +77,8 @@ class RenderChild:
     def render(self, request: RenderRequest) -> Passes:
         """Trace every light of ``request``, and the ambient light if it asks for that.
 
-        The surface is only sent when it differs from the last one. Ambient that was not asked
-        for comes back as a 1 x 1 pass of zeros.
+        The surface is sent only if it differs from the last one. Without ambient light, its pass
+        is 1 x 1 zeros.
 
         Raises:
             RenderError: the child failed or died; rendering again starts a new one.
@@ -77,15 +89,15 @@ class RenderChild:
             ambient = self._trace(request, None) if request.ambient else LightPasses(dark, dark)
             return Passes(lights, ambient)
 
-    def expose(self, surface: Surface, job: Expose) -> tuple[NDArray[np.float32], ...]:
-        """Gather samples of one source, a piece at a time; see ``Expose``.
+    def accumulate(self, surface: Surface, job: Accumulate) -> tuple[NDArray[np.float32], ...]:
+        """Trace more samples of one source; see ``Accumulate``.
 
         Returns:
-            When developed, diffuse and glossy light of the character, or cast and open light of
-            the floor, (h, w, 3) as in ``LightPasses``; otherwise nothing.
+            If resolved, diffuse and glossy light of the character, or the floor's light with and
+            without the character, (h, w, 3) as in ``LightPasses``; otherwise nothing.
 
         Raises:
-            RenderError: the child failed or died: the exposure has to begin anew.
+            RenderError: the child failed or died; the accumulation has to start again.
         """
         with self._conversation(surface):
             return self._ask(job)
@@ -99,7 +111,7 @@ class RenderChild:
         unlit: Array,
         path: Path,
     ) -> None:
-        """Write the scene of ``request`` as a .blend; the child is spent by it.
+        """Write the scene of ``request`` as a .blend. This ends the child.
 
         Args:
             request: its lights with their colours and powers.
@@ -120,7 +132,7 @@ class RenderChild:
 
     @contextlib.contextmanager
     def _conversation(self, surface: Surface) -> Iterator[None]:
-        """A child that lives and holds ``surface``; when it is lost, a RenderError."""
+        """A context in which a child runs and has ``surface``; if it dies, a RenderError."""
         try:
             self.start()
             self._load(surface)
@@ -130,12 +142,12 @@ class RenderChild:
         except RenderError:
             raise
         except BaseException:
-            # Half a conversation cannot be resumed: an interrupted child is a dead child.
+            # An interrupted exchange cannot be resumed, so the child is ended.
             self._end()
             raise
 
     def kill(self) -> None:
-        """End a render at hand, which then raises; any thread may call this."""
+        """End the current render, which then raises; any thread may call this."""
         process = self._process
         if process:
             process.kill()
@@ -155,7 +167,7 @@ class RenderChild:
         return self._process is not None and self._process.poll() is None
 
     def start(self) -> None:
-        """Start the child unless it lives; returns at once, while it loads."""
+        """Start the child unless it runs. Returns at once, while the child loads."""
         if self.alive:
             return
         self._end()
@@ -212,7 +224,7 @@ class RenderChild:
         return LightPasses(*arrays)
 
     def _ask(
-        self, job: Trace | Expose | SaveBlend, arrays: Iterable[Array] = ()
+        self, job: Trace | Accumulate | SaveBlend, arrays: Iterable[Array] = ()
     ) -> tuple[NDArray[np.float32], ...]:
         send(self._pipe("stdin"), job, arrays)
         message, arrays = receive(self._pipe("stdout"))
@@ -230,7 +242,7 @@ class RenderChild:
         return cast(FileIO, getattr(self._process, name))
 
     def _lost(self, error: Exception) -> RenderError:
-        """Clear away the dead child and say what is known of its end."""
+        """Clean up after a dead child. Returns the error with its exit status and log."""
         status, log = None, ""
         if self._process and self._log:
             with contextlib.suppress(subprocess.TimeoutExpired):

@@ -1,6 +1,6 @@
-"""Intel Open Image Denoise on any array, through the library that Blender brings along.
+"""Intel Open Image Denoise for any array, through the library in Blender.
 
-Cycles would denoise its Combined pass only; the light is wanted with the albedo divided out.
+Cycles denoises only its Combined pass, but here light is denoised without the albedo.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ QUALITY = {"fast": 4, "high": 6}
 
 
 class Denoiser:
-    """One CPU device, kept between images."""
+    """One CPU device, reused for all images."""
 
     def __init__(self, threads: int) -> None:
         self._lib = _load()
@@ -32,8 +32,8 @@ class Denoiser:
     def denoise(self, image: NDArray[np.float32], quality: DenoiseQuality) -> NDArray[np.float32]:
         """Denoise an (h, w, 3) scene-linear image.
 
-        No normals or albedo guide it: measured on demodulated light, they gain next to
-        nothing over an image without a silhouette.
+        Normals and albedo are not used as guides: on light without albedo and silhouette they
+        improve almost nothing, as measured.
 
         Raises:
             RuntimeError: the library's own message.

@@ -1,7 +1,7 @@
-"""Cycles' passes straight from memory.
+"""Cycles' passes, read from memory.
 
 Headless Blender keeps no pixels: 'Render Result' is empty, the Viewer node does nothing, and
-files are slow. So the engine's own ``render`` is wrapped to read its passes before they go.
+files are slow. So the engine's ``render`` is wrapped, to read its passes before they are freed.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 
 def render_passes(scene: Any) -> dict[str, NDArray[np.float32]]:
-    """Render ``scene`` with Cycles; its passes by Blender's name, (h, w, channels) float32,
-    row 0 at the top.
+    """Render ``scene`` with Cycles. Returns its passes by Blender's names, (h, w, channels)
+    float32, row 0 at the top.
 
     Raises:
         RuntimeError: Blender has no Cycles, or Cycles gave no picture.

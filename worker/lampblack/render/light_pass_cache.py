@@ -1,4 +1,4 @@
-"""Traced light that is kept: when some lights move, only those are traced again."""
+"""The light pass cache: when some lights move, only those are traced again."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class LightPassCache:
     _ambient: LightPasses | None = None
 
     def complete(self, drawing: object, scene: Scene, trace: Trace) -> Passes:
-        """The passes of ``scene`` on ``drawing``, an object that is compared by identity;
-        ``trace`` is called for the lights that are not kept."""
+        """The passes of ``scene`` on ``drawing``, which is compared by identity. ``trace`` is
+        called for the lights that are not in the cache."""
         key = scene.render_key()
         if drawing is not self._drawing or key != self._key:
             self._lights, self._ambient = {}, None

@@ -1,4 +1,4 @@
-"""What the render child gives back: light, sorted by where it came from."""
+"""Light passes: the light of each source on its own."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class LightPasses:
     Attributes:
         diffuse: irradiance over pi with the albedo divided out: a white wall fully lit is 1.
         glossy: reflected radiance of the glossy lobe with its own colour divided out.
-        floor: irradiance over pi of the floor with the character on it: its shadow, and the
-            colour that bleeds from it; None without a floor.
-        open_floor: the same without the character; equal to ``floor`` where nothing is cast.
+        floor: irradiance over pi of the floor with the character: includes the character's shadow
+            and the light that it reflects; None without a floor.
+        open_floor: the same without the character.
             The shadow is the ratio of the two, each summed over the lights, since a light may
             reach the floor by way of the character alone.
     """

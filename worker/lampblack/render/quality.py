@@ -1,4 +1,4 @@
-"""How much work a render is given: every trade of speed against noise, in one place."""
+"""Quality presets: resolution and samples of every render."""
 
 from __future__ import annotations
 
@@ -28,9 +28,15 @@ class Sampling:
 
 @dataclass(frozen=True)
 class Quality:
-    """Settings of one preset: ``light`` for each area light on the character, ``ambient`` for
-    the ambient light on it, ``floor`` for the floor under each of them; ``mesh_stride`` is
-    the pixels between two vertices of the relief."""
+    """Settings of one preset.
+
+    Attributes:
+        light: for each area light on the character.
+        ambient: for the ambient light on the character.
+        floor: for the floor under each light.
+        mesh_stride: pixels between two vertices of the relief.
+        denoise: quality of the denoiser.
+    """
 
     light: Sampling
     ambient: Sampling
@@ -52,9 +58,9 @@ QUALITIES: dict[str, Quality] = {
         floor=Sampling(0.5, 192, 16),
         mesh_stride=2,
     ),
-    # Few samples at full resolution beat many at half of it: what is left after denoising is
-    # not noise but steps in depth, where enlarged light leaks from one side to the other. For
-    # the same reason neither adaptive sampling nor the slower denoiser earns its time.
+    # Few samples at full resolution are better than many at half of it. After denoising, the
+    # largest errors are at steps in depth, where enlarged light leaks from one side to the
+    # other. Adaptive sampling and the slower denoiser do not help there.
     "final": Quality(
         light=Sampling(1.0, 4096, 5),
         ambient=Sampling(1.0, 4096, 7),
@@ -70,4 +76,4 @@ REFERENCE = Quality(
     mesh_stride=1,
     denoise="high",
 )
-"""Every pixel, far too many samples: what the presets are judged against."""
+"""Full resolution and very many samples: the reference for the presets."""

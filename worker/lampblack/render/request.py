@@ -1,4 +1,4 @@
-"""What the render child is asked for: a surface, its lights, and a piece of the canvas."""
+"""Requests to the render process: a surface, its lights, and a part of the canvas."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from .quality import QUALITIES, Quality
 
 @dataclass(frozen=True)
 class Surface:
-    """The relief and what each of its V vertices is made of.
+    """The relief, and the material of each of its V vertices.
 
     Attributes:
         relief: canvas pixels.
-        albedo: (V, 3) float32, scene-linear. It bleeds onto its neighbours, and unlit or
-            glossy-only colours bleed too.
+        albedo: (V, 3) float32, scene-linear. It colours the light that the vertex reflects, also
+            for unlit and glossy-only colours.
         gloss: (V,) float32 in 0..1, amount of the glossy lobe.
         roughness: (V,) float32 in 0.02..1.
     """
@@ -36,15 +36,16 @@ class Surface:
 
 @dataclass(frozen=True)
 class RenderRequest:
-    """One trace: which light to send over which surface.
+    """One trace: the lights to trace on a surface.
 
     Attributes:
-        surface: kept by the child until another comes, so moving a light is cheap.
+        surface: the child keeps it until another one comes, so moving a light is fast.
         canvas: its ``default_height`` calibrates the lights.
-        lights: area lights to trace; their colour and power are left to the composite.
+        lights: area lights to trace, as white lights of power 1; the composite applies colour and
+            power.
         ambient: trace the ambient light as well.
         floor: the shadow-catching floor, or None.
-        rect: (x, y, width, height) of the canvas to trace, canvas pixels; None for all.
+        rect: part of the canvas to trace, (x, y, width, height) in canvas pixels; None for all.
         quality: resolution and samples.
     """
 
@@ -58,13 +59,13 @@ class RenderRequest:
 
     @property
     def view(self) -> tuple[float, float, float, float]:
-        """(x, y, width, height) of the traced piece, canvas pixels."""
+        """The traced part, (x, y, width, height) in canvas pixels."""
         return self.rect or (0.0, 0.0, float(self.canvas.width), float(self.canvas.height))
 
 
 def frame_request(size: tuple[int, int], surface: Surface, scene: Scene) -> RenderRequest:
-    """Ask for all the light of ``scene`` on a drawing of ``size`` (width, height), which may be
-    another than the canvas's."""
+    """Request all light of ``scene`` on a drawing of ``size`` (width, height), which may differ
+    from the canvas's."""
     width, height = size
     whole = (scene.canvas.width, scene.canvas.height) == size
     return RenderRequest(
@@ -80,8 +81,8 @@ def frame_request(size: tuple[int, int], surface: Surface, scene: Scene) -> Rend
 def vertex_pixels(
     labels: NDArray[np.int16], vertices: NDArray[np.float32]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """(V,) rows and (V,) columns of the pixel of ``labels``, (H, W), that each vertex stands on;
-    for those past the character's edge, of the nearest pixel inside."""
+    """(V,) rows and (V,) columns of the pixel of ``labels``, (H, W), under each vertex; for
+    vertices past the character's edge, of the nearest pixel inside."""
     height, width = labels.shape
     column = np.clip(vertices[:, 0].astype(np.intp), 0, width - 1)
     row = np.clip(vertices[:, 1].astype(np.intp), 0, height - 1)
@@ -99,10 +100,10 @@ def assign_materials(
     palette: Palette,
     scene: Scene,
 ) -> Surface:
-    """Give each vertex the material that its colour wears in ``scene``.
+    """Give each vertex the material of its flat colour in ``scene``.
 
     Args:
-        albedo: (V, 3) sRGB in 0..1 of the pixel each vertex stands on.
+        albedo: (V, 3) sRGB in 0..1 of the pixel under each vertex.
         labels: (V,) index into ``palette`` of that pixel, -1 for none.
     """
     materials = MaterialTable.of(scene, palette.colours)

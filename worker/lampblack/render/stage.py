@@ -20,8 +20,8 @@ from .quality import Sampling
 CAMERA_HEIGHT = 60.0
 FLOOR_REACH = 200.0
 FLOOR_ALBEDO = 0.6
-AMBIENT_SHEEN = 0.2  # all of a white surrounding, mirrored, would chalk every glossy colour
-ALBEDO_RANGE = 0.03, 0.9  # Cycles divides the light by the albedo, and white never darkens
+AMBIENT_SHEEN = 0.2  # full reflections of a white surrounding would whiten every glossy colour
+ALBEDO_RANGE = 0.03, 0.9  # not 0: Cycles divides light by it; not 1: reflections would not fade
 PASSES = (
     "diffuse_direct",
     "diffuse_indirect",
@@ -36,7 +36,7 @@ SurfaceArrays = tuple[Floats, NDArray[np.int32], Floats, Floats, Floats]
 
 
 class Stage:
-    """Holds the Blender scene between renders, so that only what changed is rebuilt."""
+    """The Blender scene, kept between renders, so that only changed parts are rebuilt."""
 
     def __init__(self) -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -45,7 +45,7 @@ class Stage:
         self._surface: SurfaceArrays | None = None
         self._canvas: Canvas | None = None
         self._character = self._add("figure", bpy.data.meshes.new("figure"))
-        # A mesh with two users keeps its BVH to itself, so a moved light leaves it standing.
+        # A mesh with two users has its own BVH, which then survives when a light moves.
         self._twin = self._add("twin", self._character.data)
         self._twin.location = (0, 0, -10 * FLOOR_REACH)
         self._twin.scale = (1e-3, 1e-3, 1e-3)
@@ -63,7 +63,7 @@ class Stage:
         self._camera = self._add("camera", camera)
         self.scene.camera = self._camera
         self.scene.world = bpy.data.worlds.new("ambient")
-        # Sampled by bounces alone: shadow rays would slip through the floor.
+        # Sampled by bounces only: shadow rays would pass through the floor.
         self.scene.world.cycles.sampling_method = "NONE"
         self._ambient = _ambient_strength(self.scene.world.node_tree)
 
@@ -75,12 +75,12 @@ class Stage:
         gloss: Floats,
         roughness: Floats,
     ) -> None:
-        """Take a relief in canvas pixels; it is built when the canvas is known."""
+        """Set the relief, in canvas pixels. ``set_canvas`` builds its mesh."""
         self._surface = vertices, faces, albedo, gloss, roughness
         self._canvas = None
 
     def set_canvas(self, canvas: Canvas) -> None:
-        """Build the relief for ``canvas``, if that is not what stands there already."""
+        """Build the relief's mesh for ``canvas``, unless it is there already."""
         if canvas == self._canvas or self._surface is None:
             return
         old, mesh = self._character.data, _character_mesh(*self._surface, canvas)
@@ -91,7 +91,7 @@ class Stage:
         self._canvas = canvas
 
     def set_floor(self, floor: Floor | None, canvas: Canvas) -> None:
-        """Hinge the floor at its line, pitched towards the viewer; None takes it away."""
+        """Hinge the floor at its line, pitched towards the viewer; None removes it."""
         self._floor.hide_render = floor is None
         if floor is None:
             return
@@ -117,12 +117,12 @@ class Stage:
         self._camera.data.ortho_scale = max(width, height) / canvas.default_height
         render = self.scene.render
         render.resolution_x, render.resolution_y = size
-        # Pixels as oblong as it takes for the rounded size to cover the view exactly.
+        # The aspect of a pixel is such that the rounded size covers the view exactly.
         aspect = (width / size[0]) / (height / size[1])
         render.pixel_aspect_x, render.pixel_aspect_y = max(1, aspect), max(1, 1 / aspect)
 
     def set_source(self, light: AreaLight | None, canvas: Canvas) -> None:
-        """Leave one source shining: a white area light of power 1, or the ambient light."""
+        """Turn on one source: a white area light of power 1, or the ambient light."""
         self._lamp.hide_render = light is None
         self._ambient.default_value = float(light is None)
         if light is not None:
@@ -135,10 +135,10 @@ class Stage:
             self._lamp.data.energy = math.pi * (radius**2 + 1) / radius**2
 
     def set_subject(self, subject: Literal["character", "floor", "bare floor"]) -> None:
-        """Choose what the camera sees; the other is still there for the light it throws.
+        """Choose what the camera sees. The other part is invisible but still reflects light.
 
-        The floor never casts a shadow, and under the character's own render it sinks until all
-        of the character stands above it: a character may dip below the line without a seam.
+        The floor never casts a shadow. When the character is rendered, the floor is lowered below
+        all of it, so that a character that extends below the floor's line has no seam.
         """
         _set_visible(
             self._character, {"character": "cdgs", "floor": "dgs", "bare floor": ""}[subject]
@@ -151,13 +151,13 @@ class Stage:
         self.set_samples(sampling.spp, 0, sampling.spp)
 
     def set_samples(self, spp: int, first: int, count: int) -> None:
-        """Trace ``count`` of a pattern of ``spp`` samples per pixel, from ``first`` on. Averaged,
-        subsets are what the whole is; renders that only differ in their seed are not."""
+        """Trace ``count`` samples per pixel, from ``first`` on, of a pattern of ``spp``. The mean
+        of all subsets is as good as one render; the mean of renders with other seeds is not."""
         cycles = self.scene.cycles
         cycles.samples = spp
         cycles.use_sample_subset = count < spp
         cycles.sample_offset, cycles.sample_subset_length = first, count
-        # Cycles only looks at its settings again when told that the film changed.
+        # Cycles reads its settings again only when the film changes.
         self.scene.render.filter_size = self.scene.render.filter_size
 
     def _set_engine(self) -> None:
@@ -188,14 +188,15 @@ class Stage:
 
 
 def threads() -> int:
-    """Processors that this process may use."""
+    """Number of processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def _ambient_strength(tree: Any) -> Any:
-    """Make the world white, ``AMBIENT_SHEEN`` to glossy rays; the socket of its strength."""
+    """Make the world white, and ``AMBIENT_SHEEN`` for glossy rays. Returns the socket of its
+    strength."""
     background = tree.nodes["Background"].inputs
     path, white = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMath")
     white.operation = "MULTIPLY_ADD"
@@ -214,10 +215,10 @@ def _to_blender(points: Floats, canvas: Canvas) -> Floats:
 
 
 def _set_visible(thing: Any, rays: str) -> None:
-    """Show to camera, diffuse, glossy and shadow rays by initial.
+    """Set visibility for camera, diffuse, glossy and shadow rays, by initial.
 
-    Transmission rays, of which there are none, always see it: Cycles drops what no ray sees,
-    and would have to build it anew.
+    Objects stay visible for transmission rays, which do not occur: Cycles would drop an object
+    that no ray sees, and rebuild it later.
     """
     thing.visible_camera = "c" in rays
     thing.visible_diffuse = "d" in rays
@@ -238,7 +239,7 @@ def _character_mesh(
     if not len(vertices):
         return mesh
     mesh.vertices.add(len(vertices))
-    # Through the attribute: a hundred times faster than through the vertices.
+    # Setting the attribute is a hundred times faster than setting the vertices.
     mesh.attributes["position"].data.foreach_set("vector", _to_blender(vertices, canvas).ravel())
     mesh.loops.add(faces.size)
     mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(faces).ravel())
@@ -254,7 +255,7 @@ def _character_mesh(
 
 
 def _character_material(*, glossy: bool) -> Any:
-    """Diffuse in the albedo, plus a white GGX lobe where the gloss says so."""
+    """A diffuse material in the albedo, plus a white GGX lobe in the amount of gloss."""
     material = bpy.data.materials.new("figure")
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
@@ -281,7 +282,7 @@ def _character_material(*, glossy: bool) -> Any:
 
 
 def _floor_mesh() -> Any:
-    """A diffuse square facing its own z; seen from behind it is not there."""
+    """A diffuse square that faces its own z, and is invisible from behind."""
     mesh = bpy.data.meshes.new("floor")
     r = FLOOR_REACH
     mesh.from_pydata([(-r, -r, 0), (r, -r, 0), (r, r, 0), (-r, r, 0)], [], [(0, 1, 2, 3)])

@@ -1,4 +1,4 @@
-"""One source's light: traced, denoised, and continued past the character's edge."""
+"""Tracing the light of one source: denoised, and continued past the character's edge."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .wire import Trace
 Floats = NDArray[np.float32]
 
 FAINT = np.float32(0.05)
-UNSEEN = 0.01  # a change that only mottles: paper far from the character stays as it was
+UNSEEN = 0.01  # smaller changes are residual noise: paper far from the character stays as drawn
 
 
 def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
-    """Trace the source of ``job`` over the surface and the floor on ``stage``.
+    """Trace the source of ``job`` on the surface and the floor of ``stage``.
 
     Raises:
         RuntimeError: Blender or the denoiser failed.
@@ -56,8 +56,8 @@ def floor_light(
     """Irradiance over pi of the floor with the character on it and without, (h, w, 3), from the
     passes of both.
 
-    Both renders draw the same random numbers, so their ratio is free of noise but in the
-    shadow and where light bleeds; FAINT keeps it tame where no light falls.
+    Both renders use the same random numbers, so their ratio has noise only where the character
+    casts a shadow or reflects light. FAINT bounds it where no light falls.
     """
     open_floor = _irradiance(free)
     ratio = (_irradiance(cast) + FAINT) / (open_floor + FAINT)
@@ -67,14 +67,14 @@ def floor_light(
 
 
 def floor_passes(stage: Stage, subject: Literal["floor", "bare floor"]) -> dict[str, Floats]:
-    """What the camera sees of the floor."""
+    """Render the passes of the floor, with or without the character."""
     stage.set_subject(subject)
     return render_passes(stage.scene)
 
 
 def fill(image: Floats, inside: NDArray[np.bool_]) -> Floats:
-    """Give every pixel outside the value of the nearest inside, lest enlarging the picture
-    draws a dark fringe along the edge. (h, w, 3), (h, w)."""
+    """Give every pixel outside the value of the nearest pixel inside, so that enlarging adds no
+    dark fringe. ``image`` is (h, w, 3), ``inside`` (h, w)."""
     row, column = ndimage.distance_transform_edt(
         ~inside, return_distances=False, return_indices=True
     )
@@ -87,7 +87,7 @@ def _clean(
 ) -> Floats:
     """One kind of light on the character without its colour, denoised, (h, w, 3).
 
-    Filled before it is denoised: the denoiser smears the dark outside into the edge.
+    Filled before it is denoised, because the denoiser would blur the dark outside into the edge.
     """
     there = (passes["Combined"][..., 3] > 0.5) & (passes[f"{kind} Color"] > 0).any(axis=2)
     light = np.nan_to_num(passes[f"{kind} Direct"] + passes[f"{kind} Indirect"])

@@ -1,4 +1,4 @@
-"""Messages between the client and its render child, over a pair of pipes.
+"""Messages between the parent and the render process, over a pair of pipes.
 
 A message is a little-endian 32-bit length, that many bytes of JSON, and then the raw arrays
 that the JSON announces, each in C order.
@@ -27,7 +27,7 @@ Array = NDArray[np.float32] | NDArray[np.int32]
 
 
 class WireError(Exception):
-    """The other end closed the pipe, or sent what this end cannot read."""
+    """The other side closed the pipe or sent a malformed message."""
 
 
 class Load(msgspec.Struct, tag=True):
@@ -35,7 +35,8 @@ class Load(msgspec.Struct, tag=True):
 
 
 class Trace(msgspec.Struct, tag=True):
-    """Trace one source, ``light`` or else the ambient; answered by Traced or Failed."""
+    """Trace one source: ``light``, or the ambient light if that is None. Answered by Traced or
+    Failed."""
 
     canvas: Canvas
     view: tuple[float, float, float, float]
@@ -44,11 +45,11 @@ class Trace(msgspec.Struct, tag=True):
     quality: Quality
 
 
-class Expose(msgspec.Struct, tag=True):
-    """Gather ``count`` more samples a pixel of one source on one subject; answered by Traced,
-    with arrays only if it is to be developed, or Failed.
+class Accumulate(msgspec.Struct, tag=True):
+    """Trace ``count`` more samples per pixel of one source on one subject. Answered by Traced,
+    with arrays if ``resolve`` is set, or Failed.
 
-    ``first`` samples were gathered before, under the same other fields; 0 begins anew.
+    ``first`` is the number of samples traced before with the same other fields; 0 starts again.
     """
 
     canvas: Canvas
@@ -60,13 +61,13 @@ class Expose(msgspec.Struct, tag=True):
     spp: int
     first: int
     count: int
-    develop: bool
+    resolve: bool
 
 
 class SaveBlend(msgspec.Struct, tag=True):
-    """Write all of a scene to ``path``, a .blend of ``size`` pixels. Arrays: the ink, (H, W, 4)
-    sRGB with straight alpha, and where the character is diffuse and unlit, (V,). Answered by
-    Traced, without arrays, or Failed."""
+    """Write a scene to ``path``, a .blend of ``size`` pixels. Arrays: the ink, (H, W, 4) sRGB with
+    straight alpha, and (V,) where the character is diffuse and where it is unlit. Answered by
+    Traced without arrays, or Failed."""
 
     canvas: Canvas
     view: tuple[float, float, float, float]
@@ -78,18 +79,18 @@ class SaveBlend(msgspec.Struct, tag=True):
 
 
 class Traced(msgspec.Struct, tag=True):
-    """Arrays: diffuse, glossy and, with a floor, floor and open_floor; of an exposure, those
-    of its subject."""
+    """Arrays: diffuse, glossy and, with a floor, floor and open_floor; after Accumulate, those of
+    its subject."""
 
 
 class Failed(msgspec.Struct, tag=True):
-    """The child could not do it, but lives on."""
+    """The request failed; the child continues."""
 
     what: str
     details: str
 
 
-Message = Load | Trace | Expose | SaveBlend | Traced | Failed
+Message = Load | Trace | Accumulate | SaveBlend | Traced | Failed
 
 
 class ArraySpec(msgspec.Struct, array_like=True):

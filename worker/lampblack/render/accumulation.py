@@ -1,4 +1,5 @@
-"""One source's light gathered over several short renders: a render cannot be interrupted."""
+"""Light of one source, accumulated over several short renders, since a render cannot be
+interrupted."""
 
 from __future__ import annotations
 
@@ -12,41 +13,42 @@ from .denoise import Denoiser
 from .engine import render_passes
 from .stage import Stage
 from .trace import character_light, floor_light, floor_passes
-from .wire import Expose
+from .wire import Accumulate
 
 Floats = NDArray[np.float32]
 
 
 @dataclass
-class Exposure:
-    """The samples gathered so far; ``views`` sums the passes of one render or, of the floor,
-    of the render with the character and of that without."""
+class Accumulation:
+    """The samples so far. ``views`` has the summed passes of one render; for the floor, those of
+    the renders with and without the character."""
 
-    job: Expose | None = None
+    job: Accumulate | None = None
     spp: int = 0
     views: list[dict[str, Floats]] = field(default_factory=list)
 
-    def expose(self, stage: Stage, denoiser: Denoiser, job: Expose) -> tuple[Floats, ...]:
-        """Gather the samples of ``job``; the light so far if it is to be developed: diffuse and
-        glossy of the character, or cast and open light of the floor, (h, w, 3).
+    def accumulate(self, stage: Stage, denoiser: Denoiser, job: Accumulate) -> tuple[Floats, ...]:
+        """Trace and add the samples of ``job``. Returns the light so far if it is to be resolved:
+        diffuse and glossy light of the character, or the floor's light with and without the
+        character, (h, w, 3).
 
         Raises:
-            RuntimeError: Blender or the denoiser failed, or ``job`` continues another exposure.
+            RuntimeError: Blender or the denoiser failed, or ``job`` continues another accumulation.
         """
         if job.first == 0:
             self.job, self.spp, self.views = job, 0, []
         if self.job is None or _setting(job) != _setting(self.job) or job.first != self.spp:
-            raise RuntimeError("an exposure was continued that is not at hand")
+            raise RuntimeError("the accumulation to continue is not the current one")
         if job.count:
-            self._gather(stage, job)
-        if not job.develop:
+            self._add(stage, job)
+        if not job.resolve:
             return ()
         views = [_divided(sums, self.spp) for sums in self.views]
         if job.subject == "character":
             return character_light(views[0], denoiser, "fast")
         return floor_light(views[0], views[1], denoiser, "fast")
 
-    def _gather(self, stage: Stage, job: Expose) -> None:
+    def _add(self, stage: Stage, job: Accumulate) -> None:
         stage.set_canvas(job.canvas)
         stage.set_floor(job.floor, job.canvas)
         stage.set_source(job.light, job.canvas)
@@ -68,8 +70,8 @@ class Exposure:
 
 
 def _multiplied(view: dict[str, Floats], spp: int) -> dict[str, Floats]:
-    """Passes that can be added up: Cycles divides light by the colour that its samples met,
-    which on the outline is another for every few samples."""
+    """Passes that can be summed: Cycles divides light by the colour of its samples, which differs
+    between samples on the outline."""
     return {
         name: np.nan_to_num(seen) * spp * view.get(_colour_of(name), 1)
         for name, seen in view.items()
@@ -77,7 +79,7 @@ def _multiplied(view: dict[str, Floats], spp: int) -> dict[str, Floats]:
 
 
 def _divided(sums: dict[str, Floats], spp: int) -> dict[str, Floats]:
-    """Added up passes, as Cycles would have given them for all ``spp`` samples at once."""
+    """Summed passes, as Cycles would give them for all ``spp`` samples in one render."""
     mean = {name: total / spp for name, total in sums.items()}
     for name in mean:
         colour = mean.get(_colour_of(name))
@@ -88,10 +90,10 @@ def _divided(sums: dict[str, Floats], spp: int) -> dict[str, Floats]:
 
 
 def _colour_of(name: str) -> str:
-    """The pass by which light of a pass is divided; of no name for the others."""
+    """The name of the colour pass by which a light pass is divided; empty for other passes."""
     kind, _, part = name.partition(" ")
     return f"{kind} Color" if part in ("Direct", "Indirect") else ""
 
 
-def _setting(job: Expose) -> Expose:
-    return msgspec.structs.replace(job, first=0, count=0, develop=False)
+def _setting(job: Accumulate) -> Accumulate:
+    return msgspec.structs.replace(job, first=0, count=0, resolve=False)

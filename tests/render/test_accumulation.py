@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from lampblack.errors import RenderError
-from lampblack.render import Expose, RenderChild, Surface
+from lampblack.render import Accumulate, RenderChild, Surface
 from lampblack.scene import AreaLight, Canvas, Floor
 from support.surfaces import ball
 
 SURFACE: Surface = ball(64, 64, (32, 28), 20, gloss=0.4)
 
 
-def exposure(subject: str, first: int, count: int, *, develop: bool) -> Expose:
-    return Expose(
+def accumulation(subject: str, first: int, count: int, *, resolve: bool) -> Accumulate:
+    return Accumulate(
         canvas=Canvas(64, 64),
         view=(0, 0, 64, 64),
         size=(48, 48),
@@ -24,27 +24,27 @@ def exposure(subject: str, first: int, count: int, *, develop: bool) -> Expose:
         spp=6,
         first=first,
         count=count,
-        develop=develop,
+        resolve=resolve,
     )
 
 
 @pytest.mark.parametrize("subject", ["character", "floor"])
 def test_pieces_add_up_to_the_whole(child: RenderChild, subject: str) -> None:
-    whole = child.expose(SURFACE, exposure(subject, 0, 6, develop=True))
-    assert child.expose(SURFACE, exposure(subject, 0, 1, develop=False)) == ()
-    early = child.expose(SURFACE, exposure(subject, 1, 2, develop=True))
-    child.expose(SURFACE, exposure(subject, 3, 3, develop=False))
-    pieces = child.expose(SURFACE, exposure(subject, 6, 0, develop=True))
+    whole = child.accumulate(SURFACE, accumulation(subject, 0, 6, resolve=True))
+    assert child.accumulate(SURFACE, accumulation(subject, 0, 1, resolve=False)) == ()
+    early = child.accumulate(SURFACE, accumulation(subject, 1, 2, resolve=True))
+    child.accumulate(SURFACE, accumulation(subject, 3, 3, resolve=False))
+    pieces = child.accumulate(SURFACE, accumulation(subject, 6, 0, resolve=True))
     for one, other in zip(whole, pieces, strict=True):
         assert one.shape == (48, 48, 3)
         assert np.abs(one - other).max() < 1e-3
     assert np.abs(early[0] - whole[0]).max() > 1e-3
 
 
-def test_an_exposure_that_is_not_at_hand_is_refused(child: RenderChild) -> None:
-    child.expose(SURFACE, exposure("character", 0, 1, develop=False))
+def test_an_accumulation_that_is_not_the_current_one_is_refused(child: RenderChild) -> None:
+    child.accumulate(SURFACE, accumulation("character", 0, 1, resolve=False))
     with pytest.raises(RenderError):
-        child.expose(SURFACE, exposure("character", 3, 1, develop=True))
+        child.accumulate(SURFACE, accumulation("character", 3, 1, resolve=True))
     with pytest.raises(RenderError):
-        child.expose(SURFACE, exposure("floor", 1, 1, develop=True))
-    assert len(child.expose(SURFACE, exposure("character", 0, 1, develop=True))) == 2
+        child.accumulate(SURFACE, accumulation("floor", 1, 1, resolve=True))
+    assert len(child.accumulate(SURFACE, accumulation("character", 0, 1, resolve=True))) == 2
