@@ -1,4 +1,4 @@
-"""The materials of one drawing: what the composite and the renderer look up by label."""
+"""The materials of a drawing, by label, for the composite and the renderer."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from .scene import Affects, Scene, traced_part
 
 @dataclass(frozen=True, eq=False)
 class MaterialTable:
-    """Materials by label, n + 1 of them. Label -1, past the drawing's edge, is the last: the
+    """Materials by label, n + 1 of them. Label -1, past the drawing's edge, is the last one, the
     default material.
 
     Attributes:
         diffuse, glossy: (n + 1,) bool.
         gloss: (n + 1,) float32 in 0..1, amount of the glossy lobe; 0 where not glossy.
         roughness: (n + 1,) float32 in 0.02..1.
-        key: all that shapes traced light, but for the amounts of gloss.
-        amounts: ``gloss`` as a value to compare.
+        key: all that affects traced light, except the amounts of gloss.
+        amounts: ``gloss`` as a comparable value.
     """
 
     diffuse: NDArray[np.bool_]

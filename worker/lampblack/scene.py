@@ -212,7 +212,7 @@ class Scene:
 def default_light(canvas: Canvas, x: float, y: float, z: float | None = None) -> AreaLight:
     """A white light over (x, y), at the default height unless told otherwise.
 
-    Most of a figure is turned away from its light, so it is given more than power 1.
+    It has more than power 1, because most of a character is turned away from its light.
     """
     return AreaLight(
         x=x,

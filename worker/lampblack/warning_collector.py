@@ -1,4 +1,4 @@
-"""Warnings collected by thread; ``warnings.catch_warnings`` knows only the whole process."""
+"""Collecting warnings per thread; ``warnings.catch_warnings`` is for the whole process."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _local = threading.local()
 
 
 def install_warning_collector() -> None:
-    """From now on ``collect_warnings`` collects every ``LampblackWarning`` of its thread, and
-    no warning is printed."""
+    """From now on, ``collect_warnings`` collects the ``LampblackWarning``s of its thread, and no
+    warning is printed."""
     warnings.simplefilter("ignore")
     warnings.simplefilter("always", LampblackWarning)
 
@@ -28,7 +28,7 @@ def install_warning_collector() -> None:
 
 @contextmanager
 def collect_warnings() -> Iterator[list[str]]:
-    """The sentences of this thread's warnings within the block."""
+    """A context that yields the texts of this thread's warnings in it."""
     _local.collected = []
     try:
         yield _local.collected

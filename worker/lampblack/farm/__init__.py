@@ -1,5 +1,5 @@
-"""More than one machine: job templates for render farms, and clusters.
+"""Rendering on many machines: job templates for render farms, and clusters.
 
-Both spread the same work: tasks of whole drawings, so that each is lit once wherever it is held,
-and each task may be run again at will.
+Both distribute the same tasks. A task has whole drawings, so that each drawing is lit once. A task
+can be run again at any time.
 """

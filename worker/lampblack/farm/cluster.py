@@ -1,7 +1,8 @@
-"""Frames spread over a dask cluster: warm workers, and the work of lost ones done by others.
+"""Rendering on a dask cluster, whose workers keep network and renderer loaded. If a worker is lost,
+others take over its work.
 
-A scheduler runs whatever it is sent, so whoever reaches it owns its machines: between machines
-it is only talked to over TLS, with certificates on both sides.
+A scheduler executes everything that it receives, so whoever can connect to it controls its
+machines. Between machines, connections must use TLS, with certificates on both sides.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ CONNECT_SECONDS = 30
 
 @dataclass(frozen=True)
 class Certificates:
-    """Files of TLS; all None leaves it to dask's own configuration."""
+    """TLS files; if all are None, dask's own configuration is used."""
 
     ca: str | None = None
     certificate: str | None = None
@@ -45,12 +46,13 @@ def light_on_cluster(
     certificates: Certificates,
     listener: RenderListener,
 ) -> Outcome:
-    """Light the frames of ``settings`` on the cluster whose scheduler is at ``address``.
+    """Render the frames of ``settings`` on the cluster whose scheduler is at ``address``.
 
-    The workers see the same files under the same names. Frames of one drawing stay together.
+    The workers need the same files under the same names. Frames of one drawing are in one task.
 
     Raises:
-        LampblackError: no cluster there, not over TLS, or dask is not installed.
+        LampblackError: there is no cluster, the connection is not over TLS, or dask is not
+            installed.
     """
     try:
         from distributed import Client, Security, as_completed
@@ -87,10 +89,10 @@ def light_on_cluster(
 
 
 def check_address(address: str) -> None:
-    """Refuse a scheduler that anyone on the network could impersonate.
+    """Refuse a scheduler that others on the network could impersonate.
 
     Raises:
-        LampblackError: neither TLS nor this machine.
+        LampblackError: the address is on another machine, and not over TLS.
     """
     parts = urlsplit(address)
     try:
@@ -107,9 +109,9 @@ def check_address(address: str) -> None:
 def light_group(
     settings_json: bytes, run: str, names: Sequence[str]
 ) -> list[tuple[str, str, list[str]]]:
-    """Runs on a worker: light the named frames; (name, what became of it, error's words) each.
+    """Runs on a worker: render the named frames. Returns (name, result, error text) of each.
 
-    ``run`` names one call of ``light_on_cluster``: between two, drawings may have changed.
+    ``run`` identifies one call of ``light_on_cluster``; between two calls, drawings may change.
     """
     with _ONE_AT_A_TIME:
         job = _resolved(settings_json, run)
@@ -143,7 +145,7 @@ def _resolved(settings_json: bytes, run: str) -> ResolvedJob:
 
 
 def _warm_pipeline(options: PipelineOptions) -> Pipeline:
-    """The worker's one pipeline, kept between tasks; its renderer ends with the worker."""
+    """The worker's pipeline, kept between tasks; its renderer ends with the worker."""
     if _pipelines and _pipelines[0].options != options:
         _pipelines.pop().close()
     if not _pipelines:

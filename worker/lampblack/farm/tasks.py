@@ -1,4 +1,4 @@
-"""A shot cut into tasks."""
+"""Dividing a shot into tasks."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ..errors import LampblackError
 from ..shot import ShotFrame, by_drawing
 
 MAX_TASKS = 1024
-"""As many as an OpenJD task parameter may have values."""
+"""The most values of an OpenJD task parameter."""
 
 
 def cut_into_tasks(frames: Sequence[ShotFrame], size: int) -> list[list[int]]:
-    """Frame numbers by task: ``size`` frames or more, all that share a drawing together.
+    """Frame numbers by task: at least ``size`` frames each; frames of one drawing are together.
 
     Raises:
-        LampblackError: frames without a number, which no task could name.
+        LampblackError: frames have no numbers.
     """
     if any(frame.number is None for frame in frames):
         raise LampblackError(

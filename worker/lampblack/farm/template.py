@@ -1,4 +1,4 @@
-"""Render settings as an OpenJD job template (version 2023-09), which farm managers take in."""
+"""Render settings as an OpenJD job template (version 2023-09) for render farms."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ VERSION = "jobtemplate-2023-09"
 def job_template(
     settings: RenderSettings, tasks: Sequence[Sequence[int]], folder: Path
 ) -> dict[str, Any]:
-    """The template: parameters for what differs from machine to machine, and a step whose tasks
-    are plain ``lampblack render`` commands.
+    """The template: parameters for values that differ between machines, and a step whose tasks are
+    ordinary ``lampblack render`` commands.
 
     Args:
-        settings: with one input, and all its paths absolute.
-        tasks: frame numbers of each.
-        folder: the template's own. What lies within it is a parameter's default; paths outside
-            must be given when the job is submitted (``paths_outside``).
+        settings: has one input, and absolute paths.
+        tasks: frame numbers of each task.
+        folder: the template's folder. Paths in it are defaults of parameters; other paths must be
+            given when the job is submitted (``paths_outside``).
 
     Raises:
-        LampblackError: the farm's part is not installed, or the template breaks its rules.
+        LampblackError: the extra ``farm`` is not installed, or the template is invalid.
     """
     paths = _paths(settings)
     parameters = [_parameter(name, path, folder) for name, path in paths.items()]

@@ -1,1 +1,1 @@
-"""Finals: whole shots lit frame by frame, into files that appear whole or not at all."""
+"""Finals: whole shots rendered into files, which appear whole or not at all."""

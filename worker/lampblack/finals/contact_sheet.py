@@ -1,4 +1,4 @@
-"""A contact sheet of a finished shot."""
+"""The contact sheet of a rendered shot."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from .resolve import ResolvedJob
 
 
 def save_contact_sheet(path: Path, job: ResolvedJob, done: Sequence[ShotFrame]) -> None:
-    """Write drawings above, lit below: at most 12 of the frames ``done``, evenly chosen. A single
-    one is shown beside its drawing. Nothing is written if there are none.
+    """Write a picture with the drawings above and the lit frames below: at most 12 of the frames
+    ``done``, at even distances. A single frame is next to its drawing. Without frames, nothing is
+    written.
 
     Raises:
         OutputError: it cannot be written.

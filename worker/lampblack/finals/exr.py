@@ -1,4 +1,4 @@
-"""Multilayer OpenEXR: half float, ZIP, scene-linear, one group of channels a layer."""
+"""Multilayer OpenEXR: half float, ZIP, scene-linear, one group of channels per layer."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Floats = NDArray[np.float32]
 def save_exr(path: Path, layers: dict[str, Floats], stamp: str) -> None:
     """Write ``layers``, (H, W, 1 to 4) by name; the empty name is the picture itself.
 
-    Channels are R, G, B, A; of normals X, Y, Z; of depth Z, which is whole float.
+    Channels are R, G, B, A; normals have X, Y, Z; depth has Z as 32-bit float.
 
     Raises:
         OutputError: it cannot be written.

@@ -1,4 +1,4 @@
-"""The loop of a turntable as an animated GIF."""
+"""A turntable as an animated GIF."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ LOOP_SECONDS = 2.6
 
 
 def save_gif(path: Path, loop: Sequence[NDArray[np.uint8]]) -> None:
-    """Write (h, w, 3) uint8 sRGB pictures as one loop. All share one palette, made from the ends
-    and the middle of the swing, so that colours do not jump.
+    """Write (h, w, 3) uint8 sRGB pictures as a loop. They share one palette, made from the
+    first, middle and last angle, so that colours do not change between pictures.
 
     Raises:
         OutputError: it cannot be written.

@@ -24,14 +24,15 @@ Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Layers:
-    """One lit cel in layers, all (H, W, C) float32.
+    """The layers of one lit cel, all (H, W, C) float32.
 
     Attributes:
-        lit: (H, W, 4) sRGB in 0..1, straight alpha: what the PNG is rounded from.
+        lit: (H, W, 4) sRGB in 0..1, straight alpha: the PNG before rounding.
         colour: scene-linear by name, 3 channels each, premultiplied with the character's coverage:
             ``diffuse`` + ``glossy`` = ``light1`` + ... + ``ambient`` is the light on the character
-            before it is bent below white; ``unlit`` is what was left as drawn; ``albedo``.
-        shadow: (H, W, 3), the floor's light with the character over that without; 1 is none.
+            before highlights are compressed; ``unlit`` are colours shown as drawn; ``albedo``.
+        shadow: (H, W, 3), the floor's light with the character divided by that without it; 1 is no
+            shadow.
         ink: (H, W, 4), the line, scene-linear, premultiplied.
         normal: (H, W, 3), x right, y up, z to the viewer; 0 outside the character.
         depth: (H, W, 1), height above the paper, canvas pixels, towards the viewer.
@@ -46,7 +47,7 @@ class Layers:
 
 
 def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Layers:
-    """The layers of a drawing, prepared in full with its normals, lit by ``passes``."""
+    """The layers of a drawing, prepared in full detail with normals, and lit by ``passes``."""
     drawing = prepared.layers
     assert isinstance(drawing, Drawing)
     assert prepared.normals is not None
@@ -84,8 +85,8 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
 
 
 def seen_layers(shot: Shot, frame: ShotFrame, lit: Layers | NDArray[np.uint8]) -> dict[str, Floats]:
-    """What an EXR of ``frame`` holds, by name: the layers as its camera sees them; of a cel on
-    which nothing is drawn, (H, W, 4) sRGB, the picture alone."""
+    """The layers of the EXR of ``frame``, by name, as its camera sees them. A blank cel, (H, W, 4)
+    sRGB, has only the picture."""
     if not isinstance(lit, Layers):
         return {"": _scene_linear(shot.finish(frame, (lit / np.float32(255))))}
     camera = shot.camera(frame)
@@ -109,7 +110,7 @@ def seen_layers(shot: Shot, frame: ShotFrame, lit: Layers | NDArray[np.uint8]) -
 
 
 def _spread(height: Floats, shape: tuple[int, int]) -> Floats:
-    """A height solved at a fraction of the size, at full size, (H, W, 1)."""
+    """A height that was solved at a fraction of the size, resized to full size, (H, W, 1)."""
     step = -(-shape[0] // height.shape[0])
     whole = height.repeat(step, axis=0).repeat(step, axis=1)[: shape[0], : shape[1]]
     rows, columns = shape[0] - whole.shape[0], shape[1] - whole.shape[1]

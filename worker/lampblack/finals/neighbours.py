@@ -1,4 +1,4 @@
-"""The drawings beside each one of a shot, so that normals hold still over time."""
+"""Loading the neighbours of a shot's drawings, for the temporal filter."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ _OPEN = REACH + 1
 
 
 class NeighbourLoader:
-    """Finds what is around the drawings of a shot, whichever of its frames are lit.
+    """Loads the neighbours of a shot's drawings, also those of frames that are not rendered.
 
-    The last few drawings are held whole, and a few more in miniature. ``check`` is called before
-    each that is taken apart: what it raises ends the search. ``reach`` of 0 leaves each alone.
+    It keeps the last few drawings, and the registration thumbnails of some more. ``check`` is
+    called before a drawing is decomposed; an exception from it ends the loading. With a ``reach``
+    of 0, drawings have no neighbours.
     """
 
     def __init__(
@@ -40,11 +41,11 @@ class NeighbourLoader:
         self._small: OrderedDict[str, RegistrationThumbnail] = OrderedDict()
 
     def names(self, frame: ShotFrame) -> NeighbourKeys:
-        """Of the drawings around that of ``frame``."""
+        """The keys of the neighbours of the drawing of ``frame``."""
         return self._names.get(frame.drawing, ((), ()))
 
     def drawing(self, frame: ShotFrame) -> Drawing:
-        """The drawing of ``frame``, taken apart.
+        """The decomposed drawing of ``frame``.
 
         Raises:
             DrawingError: it cannot be read, or nothing is drawn on it.
@@ -61,8 +62,8 @@ class NeighbourLoader:
         return self._drawings[frame.drawing]
 
     def neighbours(self, frame: ShotFrame) -> LazyNeighbours | None:
-        """The neighbours of the drawing of ``frame``, None if it has none; of those before and
-        after, none beyond one that cannot be used."""
+        """The neighbours of the drawing of ``frame``; None if it has none. On either side they end
+        at a drawing that cannot be used."""
         names = self.names(frame)
         return LazyNeighbours(names, lambda: self._around(frame)) if any(names) else None
 

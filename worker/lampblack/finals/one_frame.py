@@ -1,4 +1,4 @@
-"""One frame of a shot, as it is lit."""
+"""A single frame of a shot, with all that is needed to light it."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class OneFrame:
 
 
 def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
-    """Prepare the first frame that was asked for.
+    """Load the first requested frame.
 
     Raises:
-        LampblackError: there is none, or its drawing cannot be used.
+        LampblackError: there is no frame, or its drawing cannot be used.
     """
     if not resolved.frames:
         raise LampblackError("There is no such frame.", "See which ones the input has.")

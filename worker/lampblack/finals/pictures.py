@@ -1,4 +1,4 @@
-"""A shot of picture files, each its own cel and nothing around it."""
+"""A shot of picture files; each is a cel without other layers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Sample = TypeVar("Sample", np.uint8, np.float32)
 
 @dataclass
 class PictureShot:
-    """PNG files; ``mask`` and ``ink`` hold for all of them."""
+    """PNG files; ``mask`` and ``ink`` are used for all of them."""
 
     sources: Sequence[Frame]
     mask: Picture | None = None
@@ -51,7 +51,7 @@ class PictureShot:
 
 
 def _content(path: Path) -> bytes:
-    """The file's bytes; of one that cannot be read, its name: reading it will tell."""
+    """A digest of the file's bytes, or of its name if it cannot be read; the error comes later."""
     try:
         return path.read_bytes()
     except OSError:

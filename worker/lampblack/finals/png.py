@@ -1,4 +1,4 @@
-"""PNG finals: 8-bit sRGB with straight alpha, stamped with what they were made from."""
+"""PNG finals: 8-bit sRGB with straight alpha and a stamp of their inputs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def save_png(path: Path, picture: NDArray[np.uint8], stamp: str) -> None:
 
 
 def png_stamp(path: Path) -> str | None:
-    """The stamp of a PNG that is whole; None for anything else."""
+    """The stamp of a complete PNG; None for any other file."""
     try:
         with Image.open(path, formats=("PNG",)) as image:
             stamp = image.info.get(STAMP)

@@ -1,4 +1,4 @@
-"""Stages of a job, each in a thread of its own."""
+"""Prefetching: a stage of a job runs in its own thread, one item ahead."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _END: Final = object()
 def prefetch(
     items: Generator[Item, None, None], abandon: Callable[[], None] = lambda: None
 ) -> Generator[Item, None, None]:
-    """Yield ``items``. A thread makes the next one while the caller uses the last one; at most
-    one waits. Close the generator to end early: ``abandon`` may then cut short what is made."""
+    """Yield ``items``. A thread makes the next item while the caller uses the current one; at most
+    one item waits. To end early, close the generator; then ``abandon`` may interrupt the thread."""
     with closing(items), ThreadPoolExecutor(1) as thread:
         try:
             coming = thread.submit(next, items, _END)

@@ -1,7 +1,7 @@
-"""Render frames of a shot into files. Each distinct drawing is lit once, however often it is held.
+"""Rendering the frames of a shot into files. Each distinct drawing is lit once.
 
-Three things go on at once: the surface of the next drawing is made, the renderer traces this one,
-and the last one is composited and written.
+Three stages overlap: the next drawing is prepared, the current one is traced, and the previous one
+is composited and written.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ from .resolve import ResolvedJob
 from .tasks import Blank, Failed, Ready, RenderTask, StampedFrame, Traced, UpToDate, plan
 
 ATTEMPTS = 2
-"""Traces of one drawing before its frames have failed: a renderer may be lost."""
+"""Attempts to trace a drawing before its frames fail, because the renderer may crash."""
 OVERLAP_PX = 4_000_000
-"""Larger drawings are made one after another: several at once would take too much memory."""
+"""The stages of larger drawings do not overlap, to limit memory."""
 
 
 @dataclass
 class Outcome:
-    """What became of the frames.
+    """The result of every frame.
 
     Attributes:
-        done: written, or there already. kept: those that were there.
-        unlit: passed through, since nothing is drawn. failed: with the error of each.
+        done: frames whose file exists. kept: those whose file existed before.
+        unlit: blank frames, written as drawn. failed: frames with their errors.
     """
 
     done: list[ShotFrame] = field(default_factory=list)
@@ -50,28 +50,29 @@ class Outcome:
 
 
 class RenderListener:
-    """Hears how a job goes on; what a method raises ends the job. By default it does nothing.
+    """Receives the events of a job. An exception from a method ends the job. By default it does
+    nothing.
 
-    ``on_progress`` and ``on_renderer_lost`` may be called from the thread that traces, the others
-    from the caller's.
+    ``on_progress`` and ``on_renderer_lost`` may be called from the tracing thread, the others from
+    the caller's.
     """
 
     def on_frame(self, frame: ShotFrame, error: LampblackError | None, *, kept: bool) -> None:
-        """The file of ``frame`` is there (``kept``: it was before), or it failed."""
+        """The file of ``frame`` exists (``kept``: it existed before), or the frame failed."""
 
     def on_blank(self, frame: ShotFrame, reason: LampblackError) -> None:
-        """Nothing is drawn on ``frame``; it is passed through unlit."""
+        """``frame`` is blank, and is written as drawn."""
         words = f"{frame.name}: {reason.what} Passed through unlit."
         warnings.warn(words, LampblackWarning, stacklevel=2)
 
     def on_warning(self, frame: ShotFrame, sentence: str) -> None:
-        """Preparing the drawing of ``frame`` warned of something."""
+        """There was a warning while the drawing of ``frame`` was prepared."""
 
     def on_progress(self, frame: ShotFrame, share: float) -> None:
         """``share``, 0 to 1, of ``frame`` is done."""
 
     def on_renderer_lost(self, frame: ShotFrame, error: RenderError) -> None:
-        """The renderer was lost; the drawing of ``frame`` is traced again."""
+        """The renderer crashed; the drawing of ``frame`` is traced again."""
 
 
 def render_shot(
@@ -83,13 +84,12 @@ def render_shot(
 ) -> Outcome:
     """Render ``frames`` (None: all of the job) into their files.
 
-    A frame whose file was made from the same drawing, neighbours and scene is left alone, so
-    that a job that was stopped goes on where it was. A frame that fails is reported and passed
-    over; when nothing can be written, the rest fails too. ``pipeline`` is used from other
-    threads until this returns.
+    A frame is kept if its file was made from the same drawing, neighbours and scene, so a job that
+    was stopped continues. A frame that fails is reported, and the job continues. If nothing can be
+    written, all remaining frames fail. ``pipeline`` is used from other threads until this returns.
 
     Args:
-        check: called often, from any thread of the job; what it raises ends the job.
+        check: called often, from any thread of the job; an exception from it ends the job.
     """
     wanted = job.frames if frames is None else frames
     run = _Run(job, pipeline, listener or RenderListener(), check)
@@ -114,7 +114,7 @@ def _overlapping(job: ResolvedJob, wanted: Sequence[ShotFrame]) -> bool:
 
 
 class _Stopped(Exception):
-    """Ends the threads of a job that was interrupted."""
+    """Ends the threads of an interrupted job."""
 
 
 @dataclass
@@ -128,12 +128,12 @@ class _Run:
     stopped: bool = False
 
     def stop(self) -> None:
-        """End the threads, and the render that goes on."""
+        """End the threads and the current render."""
         self.stopped = True
         self.pipeline.interrupt()
 
     def check(self) -> None:
-        """Raise if the job is to end."""
+        """Raise an exception if the job is to end."""
         self.caller_check()
         if self.stopped:
             raise _Stopped
@@ -141,7 +141,7 @@ class _Run:
     def traced(
         self, tasks: Generator[RenderTask, None, None]
     ) -> Generator[UpToDate | Failed | Blank | Traced, None, None]:
-        """``tasks`` with their light."""
+        """Trace ``tasks``, one after another."""
         with closing(tasks):
             for task in tasks:
                 yield self._trace(task) if isinstance(task, Ready) else task
@@ -164,7 +164,7 @@ class _Run:
         raise AssertionError
 
     def finish(self, task: UpToDate | Failed | Blank | Traced) -> None:
-        """Write what was lit, and report what became of each frame."""
+        """Writes lit frames and reports their results."""
         match task:
             case UpToDate(frame):
                 self.outcome.done.append(frame)
@@ -190,7 +190,7 @@ class _Run:
         frames: Sequence[StampedFrame],
         lit: Callable[[], NDArray[np.uint8] | Layers],
     ) -> Generator[ShotFrame, None, None]:
-        """Write the frames of one lit cel; yields those that are there."""
+        """Write the frames of one lit cel; yields those whose files exist."""
         made: NDArray[np.uint8] | Layers | None = None
         written: dict[str, Path] = {}
         for frame, stamp in frames:
@@ -233,6 +233,6 @@ class _Run:
 
 
 def _copy(source: Path, target: Path) -> None:
-    """Frames that are made from the same are the same, to the last byte."""
+    """Copy the file of another frame that has the same inputs."""
     with atomic_path(target) as temporary:
         shutil.copyfile(source, temporary)

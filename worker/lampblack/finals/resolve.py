@@ -1,4 +1,4 @@
-"""From render settings to the files, frames and scene that they name."""
+"""Resolving render settings: from names to a shot, its frames and a scene."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ SIDECAR_SUFFIX = ".lampblack.json"
 
 @dataclass(frozen=True)
 class ResolvedShot:
-    """The shot that render settings name, read and found sound.
+    """The shot of render settings, read and checked.
 
     Attributes:
-        frames: those that the settings name, of the shot's.
-        overrides: the scene file, and what replaces parts of it.
-        sources: the files that are read.
-        single: the shot is a single drawing, not one of many.
-        reach: neighbours on either side that normals are smoothed over.
+        frames: the selected frames of the shot.
+        overrides: the scene file, and the settings that replace parts of it.
+        sources: the input files.
+        single: whether the input is one single drawing.
+        reach: number of neighbours on either side for the temporal filter.
     """
 
     shot: Shot
@@ -45,7 +45,7 @@ class ResolvedShot:
 
 @dataclass(frozen=True)
 class ResolvedJob(ResolvedShot):
-    """A resolved shot, and where and how its frames are written."""
+    """A resolved shot, with its target files and pipeline options."""
 
     targets: Targets
     options: PipelineOptions
@@ -53,10 +53,10 @@ class ResolvedJob(ResolvedShot):
 
 
 def resolve_job(settings: RenderSettings) -> ResolvedJob:
-    """Read what ``settings`` name, and refuse, before any work, what cannot be done.
+    """Resolve ``settings``. Impossible jobs are refused before any work.
 
     Raises:
-        LampblackError: something is missing, mistyped, or would be overwritten.
+        LampblackError: an input is missing or malformed, or a source would be overwritten.
     """
     targets = Targets(settings.output, settings.format)
     resolved = resolve_shot(settings)
@@ -66,10 +66,10 @@ def resolve_job(settings: RenderSettings) -> ResolvedJob:
 
 
 def resolve_shot(settings: RenderSettings) -> ResolvedShot:
-    """Read what ``settings`` name, wherever it is to go.
+    """Resolve the inputs of ``settings``, without its output.
 
     Raises:
-        LampblackError: something is missing or mistyped.
+        LampblackError: an input is missing or malformed.
     """
     scene = None if settings.scene is None else read_scene(Path(settings.scene))
     shot: Shot
@@ -91,7 +91,7 @@ def resolve_shot(settings: RenderSettings) -> ResolvedShot:
 
 
 def _sidecar(project: str) -> Scene | None:
-    """The scene that the drawing tool keeps beside ``project``."""
+    """The scene file of the Pencil2D plugin, next to ``project``."""
     path = Path(f"{project}{SIDECAR_SUFFIX}")
     return read_scene(path) if path.exists() else None
 

@@ -1,4 +1,4 @@
-"""A frame's scene in three dimensions: GLB for any program, .blend for Blender."""
+"""Export of a frame's 3D scene: GLB for any program, .blend for Blender."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ def save_scene(
     path: Path,
     neighbours: LazyNeighbours | None = None,
 ) -> None:
-    """Write the relief in its drawing's colours; into a .blend also lights, floor and camera.
+    """Write the relief in its drawing's colours. A .blend also has the lights, floor and camera.
 
-    Both: half the canvas's long side is 1, the canvas's centre is the origin, x right, y up, z
-    to the viewer. (Blender shows a GLB turned upright: it counts z upwards.)
+    In both, half the canvas's long side is 1, and the canvas's centre is the origin, with x right,
+    y up, z to the viewer. (Blender rotates a GLB on import, because its z axis points up.)
 
     Raises:
         OutputError: it cannot be written. RenderError: Blender failed.
@@ -75,7 +75,7 @@ def _save_glb(drawing: Drawing, relief: Relief, scene: Scene, path: Path) -> Non
 
 
 def _flat(drawing: Drawing) -> NDArray[np.uint8]:
-    """(H, W, 3) uint8 sRGB: fill and line, carried on past the edge so that none shows white."""
+    """(H, W, 3) uint8 sRGB: fill and line, continued past the edge so that it is not white."""
     ink = drawing.ink[..., None]
     colour = drawing.albedo + ink * (drawing.ink_colour - drawing.albedo)
     return np.asarray(np.rint(np.clip(colour, 0, 1) * 255).astype(np.uint8))

@@ -1,4 +1,4 @@
-"""From a scene file and what overrides it to the scene that each drawing is lit in."""
+"""Scene overrides: from a scene file, and settings that replace parts of it, to a scene."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from ..scene import (
 
 @dataclass(frozen=True)
 class SceneOverrides:
-    """The scene file's scene, or the default one, with parts of it replaced.
+    """The scene of the file, or the default scene, with some parts replaced.
 
     Attributes:
-        file: the scene of the file, if there is one.
-        lights: ``X,Y,Z`` each, instead of the scene's.
-        floor: its canvas line. quality: one of the presets.
+        file: the scene of the scene file, if there is one.
+        lights: ``X,Y,Z`` each, in place of the scene's lights.
+        floor: canvas line of a floor. quality: a preset.
     """
 
     file: Scene | None = None
@@ -54,7 +54,7 @@ def read_scene(path: Path) -> Scene:
     """Load a scene file.
 
     Raises:
-        SceneError: it cannot be read, or is no scene.
+        SceneError: it cannot be read, or is not a scene.
     """
     try:
         return decode_scene(path.read_bytes())
@@ -68,7 +68,7 @@ def parse_light(text: str) -> tuple[float, float, float]:
     """``X,Y,Z`` in canvas pixels.
 
     Raises:
-        SceneError: not three finite numbers within a canvas's reach.
+        SceneError: the text is not three finite numbers within the allowed range.
     """
     try:
         x, y, z = (float(part) for part in text.split(","))
@@ -92,7 +92,7 @@ def floor_at(line: float) -> Floor:
     """The default floor at this canvas line.
 
     Raises:
-        SceneError: not finite, or beyond a canvas's reach.
+        SceneError: the line is not finite, or outside the allowed range.
     """
     if not abs(line) <= 1e5:
         raise SceneError(f"The floor {line} is out of range.", "Stay within 100000 pixels.")

@@ -1,4 +1,4 @@
-"""Render settings: all that a render is asked for, as one value that travels as JSON."""
+"""Render settings: everything that determines a render, as one value that can be sent as JSON."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from ..choices import DEFAULT_GRIDS, FileFormat, LayerRole, QualityName, SolverN
 
 
 class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
-    """What ``lampblack render`` is asked for.
+    """The settings of ``lampblack render``.
 
     Attributes:
         inputs: pictures, folders and patterns, or one project.
         output: a folder, or a pattern of file names.
-        scene: a file; of a project, its sidecar if there is one.
-        lights: ``X,Y,Z`` each, canvas pixels, instead of the scene's.
-        floor: canvas line of a floor, instead of the scene's.
-        quality: a preset, instead of the scene's.
-        frames: a list such as ``1-20x2,25``; None is all.
-        format: of the files; None goes by ``output``, else PNG.
-        mask, ink: pictures; see ``decompose_drawing``.
+        scene: scene file; None is the file next to a project, or the default scene.
+        lights: ``X,Y,Z`` each, in canvas pixels, in place of the scene's lights.
+        floor: canvas line of a floor, in place of the scene's floor.
+        quality: preset, in place of the scene's.
+        frames: list such as ``1-20x2,25``; None is all.
+        format: file format; None is that of ``output``, or PNG.
+        mask, ink: picture files; see ``decompose_drawing``.
         grids: see ``PipelineOptions``.
-        solver: how normals become a surface.
-        roles: of a project's layers, by name; over those in the scene.
-        camera: a project's layer; None is the first camera.
-        steady: normals are smoothed over neighbouring drawings.
-        again: render also frames whose files are up to date.
+        solver: method of inflation.
+        roles: roles of a project's layers by name, in place of those in the scene.
+        camera: camera layer of a project; None is the first camera.
+        steady: whether normals pass the temporal filter.
+        again: whether frames whose files are up to date are rendered again.
     """
 
     inputs: tuple[str, ...]
@@ -48,7 +48,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     again: bool = False
 
     def absolute(self) -> RenderSettings:
-        """The same settings from any folder."""
+        """The same settings with absolute paths."""
         named = {name: getattr(self, name) for name in ("output", "scene", "mask", "ink")}
         found = {
             name: str(Path(path).absolute()) for name, path in named.items() if path is not None
@@ -57,7 +57,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         return msgspec.structs.replace(self, inputs=inputs, **found)
 
     def arguments(self) -> list[str]:
-        """The same settings on the command line, after ``lampblack render``."""
+        """The same settings as command-line arguments of ``lampblack render``."""
         words = [*self.inputs, "-o", self.output]
         for name in self.__struct_fields__[2:]:
             value = getattr(self, name)

@@ -1,4 +1,4 @@
-"""Where the frames of a shot are written, and whether they are there already."""
+"""Target files: the file of each frame, and whether it is up to date."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ _NUMBER = re.compile(r"%0?(\d?)d|#+")
 
 
 class Targets:
-    """Names for frames, from a folder (frames keep their names) or a pattern: ``out/a.%04d.png``,
-    ``out/a####.exr``, or one plain file name for one frame.
+    """The files of frames. ``output`` is a folder (frames keep their names), a pattern
+    (``out/a.%04d.png``, ``out/a####.exr``), or one file name for one frame.
 
     Args:
-        output: as it was named.
-        kind: file format; None takes it from the pattern's suffix, else the first of ``kinds``.
-        kinds: file formats that can be written, as suffixes.
+        output: folder, pattern or file name.
+        kind: file format; None is that of the pattern's suffix, or the first of ``kinds``.
+        kinds: allowed file formats, as suffixes.
 
     Raises:
-        LampblackError: the pattern's suffix is none of ``kinds``, or not ``kind``.
+        LampblackError: the pattern's suffix is not in ``kinds``, or is not ``kind``.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class Targets:
 
     @property
     def folder(self) -> Path:
-        """Where all the files go."""
+        """The folder of all files."""
         return self._path.parent if self._named else self._path
 
     def path(self, frame: ShotFrame) -> Path:
@@ -74,7 +74,7 @@ class Targets:
         )
 
     def prepare(self, frames: Sequence[ShotFrame], sources: Sequence[Path]) -> None:
-        """Make the folder; refuse, before any work, what would lose something.
+        """Create the folder. Jobs that would lose a file are refused before any work.
 
         Raises:
             LampblackError: two frames would share a file, a source would be replaced, or the
@@ -116,6 +116,6 @@ class Targets:
                 )
 
     def holds(self, frame: ShotFrame, stamp: str) -> bool:
-        """Whether the file of ``frame`` is there, whole, and was made from what ``stamp`` names."""
+        """Whether the file of ``frame`` is up to date: complete, and with this ``stamp``."""
         read = exr_stamp if self.kind == "exr" else png_stamp
         return read(self.path(frame)) == stamp

@@ -1,4 +1,4 @@
-"""What a job has to do: frames that show one drawing under one light, prepared for rendering."""
+"""Render tasks: frames that show one drawing under one light, prepared for rendering."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from .neighbours import NeighbourLoader
 from .resolve import ResolvedJob
 
 StampedFrame = tuple[ShotFrame, str]
-"""A frame, and the stamp of all that its file is made from."""
+"""A frame, and the stamp of its file: a digest of all inputs."""
 
 
 @dataclass(frozen=True)
 class UpToDate:
-    """The file of ``frame`` is there, whole, and made from the same."""
+    """The file of ``frame`` is complete and has the same inputs."""
 
     frame: ShotFrame
 
@@ -42,7 +42,7 @@ class Failed:
 
 @dataclass(frozen=True)
 class Blank:
-    """Nothing is drawn: ``pixels`` of the cel, (H, W, 4) uint8, are passed through unlit."""
+    """The cel is blank: its ``pixels``, (H, W, 4) uint8, are written as drawn."""
 
     frames: Sequence[StampedFrame]
     pixels: Picture
@@ -55,8 +55,8 @@ class Ready:
 
     Attributes:
         scene: in the cel's pixels.
-        surface: the relief of ``prepared`` in the materials of ``scene``.
-        warnings: what preparing the drawing warned of, where warnings are collected.
+        surface: the relief of ``prepared`` with the materials of ``scene``.
+        warnings: warnings from preparing the drawing, if warnings are collected.
     """
 
     frames: Sequence[StampedFrame]
@@ -68,7 +68,7 @@ class Ready:
 
 @dataclass(frozen=True)
 class Traced:
-    """A task with its light."""
+    """A task with its traced light."""
 
     task: Ready
     passes: Passes
@@ -83,7 +83,7 @@ def plan(
     frames: Sequence[ShotFrame],
     check: Callable[[], None] = lambda: None,
 ) -> Generator[RenderTask, None, None]:
-    """The tasks of ``frames``, prepared one by one. ``check`` is called often: what it raises
+    """The tasks of ``frames``, prepared one by one. ``check`` is called often; an exception from it
     ends the plan."""
     planner = _Planner(job, pipeline, check)
     for group in by_drawing(frames):
@@ -134,7 +134,7 @@ class _Planner:
             yield from self._prepare(lightings, cel)
 
     def _prepare(self, lightings: Sequence[_Lighting], cel: Cel) -> list[RenderTask]:
-        """Keys move lights and floor: the surface is the same throughout."""
+        """Tasks for all lightings of a cel. Keys move lights and floor, not the surface."""
         frame, _ = lightings[0].frames[0]
         scene = lightings[0].scene
         all_frames = [stamped for lighting in lightings for stamped in lighting.frames]
@@ -174,9 +174,9 @@ class _Planner:
                 stacklevel=2,
             )
             if self._job.shot.canvas is not None:
-                self._canvas = canvas  # once: a project has one size
+                self._canvas = canvas  # warn once: a project has one size
         number = frame.number
-        # A frame without a number goes by its place in the job.
+        # A frame without a number is counted by its position in the job.
         return scene_at(scene, self._job.frames.index(frame) + 1 if number is None else number)
 
     def _stamp(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> str:
@@ -191,6 +191,6 @@ def _size(cel: Cel | None) -> tuple[int, int]:
 
 
 def _weights() -> list[str]:
-    """Names for the networks as they are installed: another network makes other pictures."""
+    """Digests of the installed networks: another network makes other pictures."""
     folder: Path = shipped_weights().parent
     return [digest(path.name, path.read_bytes()) for path in sorted(folder.iterdir())]

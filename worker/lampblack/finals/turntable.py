@@ -1,4 +1,4 @@
-"""A quick look at a drawing's relief from the sides: it swings, as clay and as it is lit."""
+"""Turntable: a drawing's relief swings from side to side, as clay and lit."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ from ..scene import Material, Scene
 from ..surface import Relief, visible_faces
 
 FARTHEST = 40.0
-"""Degrees that the relief turns to either side."""
+"""Largest angle to either side, degrees."""
 CLAY = 0.66
-"""Its sRGB grey."""
+"""sRGB grey of the clay."""
 PAPER = 226, 224, 219
 _MARGIN = 1.08
 _FINER = 2
-"""Colours are looked up at so many times the size, so that lines and edges are smooth."""
+"""Colours are sampled at this multiple of the size, so that lines and edges are smooth."""
 
 Floats = NDArray[np.float32]
 Picture = NDArray[np.uint8]
 
 
 def swing(count: int) -> list[float]:
-    """Angles in degrees of ``count`` pictures that loop, slower where the swing turns back."""
-    # Rounded, so that there and back are the same.
+    """Angles in degrees of ``count`` pictures that loop, with slower motion at both ends."""
+    # Rounded, so that both directions have the same angles.
     angles = (FARTHEST * math.sin(2 * math.pi * index / count) for index in range(count))
     return [round(angle, 3) + 0.0 for angle in angles]
 
@@ -48,11 +48,11 @@ def turn_table(
     size: int,
     neighbours: LazyNeighbours | None = None,
 ) -> Iterator[Picture]:
-    """(h, w, 3) uint8 sRGB pictures of the relief, swinging: clay on the left, lit on the right.
+    """(h, w, 3) uint8 sRGB pictures of the turning relief: clay on the left, lit on the right.
 
     Args:
-        scene: in the drawing's pixels; lights stand still, and its floor is left out.
-        count: pictures of the loop. size: longest side of each half, pixels.
+        scene: in the drawing's pixels; lights do not move, and the floor is omitted.
+        count: number of pictures in the loop. size: longest side of each half, pixels.
 
     Raises:
         RenderError: the renderer failed.
@@ -84,15 +84,15 @@ def turn_table(
 
 
 def _middle(relief: Relief) -> Floats:
-    """(3,): of the box around the relief."""
+    """(3,) the middle of the relief's bounding box."""
     low, high = relief.vertices.min(axis=0), relief.vertices.max(axis=0)
     middle: Floats = ((low + high) / 2).astype(np.float32)
     return middle
 
 
 def _turned(vertices: Floats, middle: Floats, degrees: float) -> Floats:
-    """``vertices`` about the upright axis through ``middle``, which becomes the origin; positive
-    brings the character's left side forward."""
+    """``vertices`` rotated about the vertical axis through ``middle``, which becomes the origin. A
+    positive angle turns the left side to the front."""
     x, y, z = (vertices - middle).T
     cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     turned: Floats = np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=1, dtype=np.float32)
@@ -100,8 +100,8 @@ def _turned(vertices: Floats, middle: Floats, degrees: float) -> Floats:
 
 
 def _seen(drawing: Drawing, relief: Relief, turned: Relief, size: tuple[int, int]) -> Drawing:
-    """The drawing on the turned relief, as if it had been drawn so: every pixel, (rows, columns),
-    shows what is drawn where the ray through it meets the surface."""
+    """The drawing projected onto the turned relief: every pixel, (rows, columns), shows the
+    drawing's pixel at the point where its ray meets the surface."""
     hit = visible_faces(turned.vertices, turned.faces, size)
     mask = hit.face >= 0
     u, v = hit.u[mask, None], hit.v[mask, None]
@@ -138,7 +138,7 @@ def _seen(drawing: Drawing, relief: Relief, turned: Relief, size: tuple[int, int
 
 
 def _picture(view: Drawing, passes: Passes, scene: Scene) -> Picture:
-    """Clay beside the lit drawing, on paper."""
+    """The clay and the lit drawing side by side, on white."""
     grey = np.full_like(view.albedo, CLAY) * view.mask[..., None]
     bare = replace(
         view,
@@ -164,6 +164,6 @@ def _picture(view: Drawing, passes: Passes, scene: Scene) -> Picture:
 
 
 def _colourless(light: LightPasses) -> LightPasses:
-    """Without the colours that bleed."""
+    """The surface in white, so that reflected light has no colour."""
     grey = light.diffuse.mean(axis=2, keepdims=True)
     return LightPasses(np.repeat(grey, 3, axis=2), light.glossy)

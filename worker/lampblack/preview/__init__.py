@@ -1,4 +1,4 @@
-"""The live picture: drawings prepared, light traced and pictures painted, in threads."""
+"""The live preview: threads prepare drawings, trace light and paint pictures."""
 
 from .contribution import LightContribution
 from .live import LivePreview

@@ -1,4 +1,4 @@
-"""Memory that is bounded: the least recently used goes first."""
+"""A cache with bounded memory: the least recently used values are dropped first."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ MIB = 1 << 20
 
 
 class BoundedStore(Generic[Key, Value]):
-    """Holds values up to ``max_bytes`` together; any thread may use it.
+    """Keeps values of up to ``max_bytes`` in total; any thread may use it.
 
-    The newest value is held even if it alone is larger.
+    The newest value is kept even if it alone is larger.
     """
 
     def __init__(self, max_bytes: int) -> None:
@@ -26,7 +26,7 @@ class BoundedStore(Generic[Key, Value]):
         self._lock = threading.Lock()
 
     def put(self, key: Key, value: Value, nbytes: int) -> None:
-        """Hold ``value``, in place of what ``key`` named before."""
+        """Set the value of ``key``."""
         with self._lock:
             self._drop(key)
             self._held[key] = value, nbytes
@@ -35,7 +35,7 @@ class BoundedStore(Generic[Key, Value]):
                 self._drop(next(iter(self._held)))
 
     def get(self, key: Key) -> Value | None:
-        """The value of ``key``, which is then the most recently used; None if it is not held."""
+        """The value of ``key``, which becomes the most recently used; None if it is not kept."""
         with self._lock:
             if key not in self._held:
                 return None
@@ -43,7 +43,7 @@ class BoundedStore(Generic[Key, Value]):
             return self._held[key][0]
 
     def drop(self, key: Key) -> None:
-        """Drop ``key``, if it is held."""
+        """Drop ``key``, if it is kept."""
         with self._lock:
             self._drop(key)
 
@@ -61,7 +61,7 @@ class BoundedStore(Generic[Key, Value]):
 
     @property
     def nbytes(self) -> int:
-        """Bytes held."""
+        """Total bytes of all values."""
         return self._bytes
 
     def _drop(self, key: Key) -> None:

@@ -1,4 +1,5 @@
-"""The light of a scene on one drawing, in parts that are traced and kept one by one."""
+"""Light contributions: the light of a scene on one drawing, in parts that are traced and cached
+separately."""
 
 from __future__ import annotations
 
@@ -18,7 +19,7 @@ from ..scene import AreaLight, Canvas, Floor, Scene
 from .refinement import REFINEMENT, RefinementLevel
 
 VERTICES = 250
-"""Vertices along the longer side of a preview's relief."""
+"""Number of vertices along the longer side of a preview's relief."""
 
 Floats = NDArray[np.float32]
 
@@ -28,12 +29,12 @@ class LightContribution:
     """One light, or the ambient light, on the character or on the floor.
 
     Attributes:
-        key: all that shapes the light, but for the amounts of gloss.
-        amounts: of gloss, by swatch: another amount changes little, so that the light traced
-            under other amounts is shown until it is traced again.
-        weight: (3,) colour times power, which only the composite uses.
+        key: all that affects the traced light, except the amounts of gloss.
+        amounts: amounts of gloss by swatch. They change the light little, so light with other
+            amounts is shown until it is traced again.
+        weight: (3,) colour times power, used only by the composite.
         light: None is the ambient light.
-        area: what it covers, pixels of the drawing.
+        area: the traced part of the drawing, in its pixels.
     """
 
     key: Hashable
@@ -47,7 +48,7 @@ class LightContribution:
 
     @property
     def refinement(self) -> tuple[RefinementLevel, RefinementLevel]:
-        """Its levels ``LOW`` and ``CONVERGED``."""
+        """The refinement levels ``LOW`` and ``CONVERGED`` of this contribution."""
         if self.subject == "floor":
             return REFINEMENT["floor"]
         return REFINEMENT["light" if self.light else "ambient"]
@@ -55,7 +56,7 @@ class LightContribution:
     def accumulation(
         self, level: RefinementLevel, first: int, count: int, *, resolve: bool
     ) -> Accumulate:
-        """Ask for samples ``first`` to ``first + count`` of ``level``."""
+        """The request for samples ``first`` to ``first + count`` of ``level``."""
         _, _, width, height = self.area
         scale = level.longest / max(width, height)
         size = max(1, round(width * scale)), max(1, round(height * scale))
@@ -68,13 +69,13 @@ class LightContribution:
 def contributions_of(
     scene: Scene, drawing: PreparedDrawing, character: Box
 ) -> tuple[LightContribution, ...]:
-    """What has to be traced: first the character's light, then the floor's.
+    """The contributions of ``scene``: first those on the character, then those on the floor.
 
-    Lights of no power are left out.
+    Lights without power are omitted.
 
     Args:
         scene: in pixels of the drawing.
-        character: what of the character is traced, see ``character_area``.
+        character: the traced part of the character, see ``character_area``.
     """
     materials = _materials(scene, drawing)
     shared = scene.render_key(materials=False, sampling=False), materials.key
@@ -100,12 +101,12 @@ def contributions_of(
 
 
 def preview_surface(drawing: PreparedDrawing, scene: Scene) -> Surface:
-    """The surface of ``drawing`` as fine as previews need it."""
+    """The surface of ``drawing`` in the resolution for previews."""
     return drawing.surface(scene, max(1, round(max(drawing.mask.shape) / VERTICES)))
 
 
 def surface_key(scene: Scene, drawing: PreparedDrawing) -> Hashable:
-    """All that shapes ``preview_surface(drawing, scene)``."""
+    """All that affects ``preview_surface(drawing, scene)``."""
     materials = _materials(scene, drawing)
     bare = replace(scene, canvas=Canvas(1, 1), floor=None).render_key(
         materials=False, sampling=False
@@ -114,7 +115,7 @@ def surface_key(scene: Scene, drawing: PreparedDrawing) -> Hashable:
 
 
 def character_area(drawing: PreparedDrawing, crop: Box) -> Box:
-    """What of the character is traced: all of it, or what is in sight when that is far less."""
+    """The part of the character to trace: all of it, or the visible part if that is far smaller."""
     x, y, width, height = drawing.box
     left, top = max(x, crop[0]), max(y, crop[1])
     right, bottom = min(x + width, crop[0] + crop[2]), min(y + height, crop[1] + crop[3])

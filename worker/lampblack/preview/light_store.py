@@ -1,4 +1,4 @@
-"""Traced light, kept by contribution."""
+"""The store of traced light, by contribution."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class AccumulatedLight:
-    """The light of one contribution: ``first`` and ``second`` are diffuse and glossy light of the
-    character, or cast and open light of the floor; ``level`` says how fine."""
+    """The light of one contribution at a refinement ``level``: ``first`` and ``second`` are diffuse
+    and glossy light of the character, or the floor's light with and without the character."""
 
     level: int
     spp: int
@@ -28,39 +28,39 @@ class AccumulatedLight:
 
     @property
     def nbytes(self) -> int:
-        """Memory it takes."""
+        """Memory in bytes."""
         return self.first.nbytes + self.second.nbytes
 
 
 class LightStore:
-    """Light by contribution. What was traced in passing has little room of its own, so that a
-    long drag does not push out what was traced at rest."""
+    """Light by contribution. Light that was traced during a drag has its own small memory, so that
+    a long drag does not displace light that was traced at rest."""
 
     def __init__(self) -> None:
         self._moving: BoundedStore[object, AccumulatedLight] = BoundedStore(16 * MIB)
         self._resting: BoundedStore[object, AccumulatedLight] = BoundedStore(192 * MIB)
 
     def put(self, contribution: LightContribution, light: AccumulatedLight) -> None:
-        """Keep the light of ``contribution``."""
+        """Store the light of ``contribution``."""
         store = self._moving if light.level < LOW else self._resting
         store.put(contribution.key, light, light.nbytes)
 
     def get(self, contribution: LightContribution) -> AccumulatedLight | None:
-        """The finest light there is of ``contribution``, perhaps under other amounts of gloss."""
+        """The finest light of ``contribution``, possibly with other amounts of gloss."""
         return self._resting.get(contribution.key) or self._moving.get(contribution.key)
 
     def level(self, contribution: LightContribution) -> int:
-        """How fine its light is under its own amounts of gloss; ``MISSING`` if there is none."""
+        """The level of its light with its own amounts of gloss; ``MISSING`` if there is none."""
         held = self.get(contribution)
         if held is None:
             return MISSING
         return held.level if held.amounts == contribution.amounts else PASSING
 
     def keep(self, contributions: Iterable[LightContribution]) -> None:
-        """Drop all that was traced at rest for anything else."""
+        """Drop all light that was traced at rest for other contributions."""
         self._resting.keep({contribution.key for contribution in contributions})
 
     @property
     def full(self) -> bool:
-        """Whether more light would push out what is kept."""
+        """Whether more light would displace stored light."""
         return self._resting.nbytes > 0.8 * self._resting.max_bytes

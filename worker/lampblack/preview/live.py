@@ -1,4 +1,4 @@
-"""A live preview: the state, and the threads that work on it."""
+"""A live preview: its state and its threads."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from .tracer import PreviewRenderer, Tracer
 
 
 class PreviewListener(Protocol):
-    """Hears of what a preview made; called from its threads."""
+    """Receives the events of a preview; called from its threads."""
 
     def on_picture(self, image: PreviewImage) -> None:
-        """There is a picture to show."""
+        """A picture is ready."""
 
     def on_drawing(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
         """A drawing was decomposed (then with its palette), prepared, or found unusable."""
 
     def on_preview_error(self, session: str, error: Exception) -> None:
-        """Something went wrong with what the session looks at."""
+        """There is an error with what the session shows."""
 
 
 class LivePreview:
-    """Prepares, traces and paints what ``state`` wants.
+    """Prepares, traces and paints what is wanted in ``state``.
 
     Args:
-        renderer: of its own; closed with it.
-        pipeline: predicts and inflates; its renderer is not used.
+        renderer: used only by this preview, and closed with it.
+        pipeline: prepares drawings; its renderer is not used.
         clock: monotonic seconds.
     """
 

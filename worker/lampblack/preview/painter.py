@@ -1,4 +1,4 @@
-"""The painter: a thread that composites the light there is over drawings, picture by picture."""
+"""The painter: a thread that composites traced light with drawings."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ Picture = NDArray[np.uint8]
 
 @dataclass(frozen=True, eq=False)
 class PreviewImage:
-    """A picture of a request.
+    """A picture for a request.
 
     Attributes:
-        passes: pictures of the same request, revision and drawing before this one.
+        passes: number of earlier pictures of the same request, revision and drawing.
         spp: samples per pixel so far.
-        converged: nothing better follows until something changes.
-        picture: (H, W, 4) uint8 sRGB, premultiplied, of the viewport's size.
+        converged: no finer picture follows until something changes.
+        picture: (H, W, 4) uint8 sRGB, premultiplied, at the viewport's size.
     """
 
     request: ViewRequest
@@ -43,7 +43,7 @@ class PreviewImage:
 
 @dataclass
 class _Shown:
-    """What a client was shown last: ``content`` is all that the picture was made from."""
+    """The last picture sent to a client: ``content`` is all that it was made from."""
 
     order: tuple[int, int] = (0, 0)
     digest: str = ""
@@ -53,11 +53,11 @@ class _Shown:
 
 @dataclass
 class Painter:
-    """Paints the newest request of each session whose light is all there.
+    """Paints the newest request of each session for which all light is traced.
 
     Args:
-        deliver: takes the pictures, in the painter's thread.
-        report: takes the session and what went wrong with its picture.
+        deliver: receives the pictures, in the painter's thread.
+        report: receives the session and the error of its picture.
     """
 
     state: PreviewState
@@ -72,13 +72,13 @@ class Painter:
     _closing: bool = False
 
     def offer(self, request: ViewRequest) -> None:
-        """Paint ``request`` if nothing newer can be painted."""
+        """Paint ``request``, unless a newer one can be painted."""
         with self._condition:
             self._offers.setdefault(request.session, {})[request.order] = request
             self._condition.notify()
 
     def forget(self, session: str) -> None:
-        """The session is over."""
+        """Forget a session that has ended."""
         with self._condition:
             self._offers.pop(session, None)
             self._shown.pop(session, None)
@@ -100,7 +100,7 @@ class Painter:
             self.step()
 
     def step(self) -> bool:
-        """Paint for one session; False if nothing was offered."""
+        """Paint for one session; False if there is nothing to paint."""
         with self._condition:
             if not self._offers:
                 return False
@@ -109,12 +109,12 @@ class Painter:
             for order in sorted(requests, reverse=True):
                 if self._paint(requests[order]):
                     break
-        except Exception as error:  # one client's trouble is not the others'
+        except Exception as error:  # an error of one client must not affect the others
             self.report(session, error)
         return True
 
     def prepare(self, request: ViewRequest, drawing: PreparedDrawing) -> ByteLayers:
-        """The drawing's layers at the size and crop of the viewport, kept for the next time."""
+        """The drawing's layers at the size and crop of the viewport, cached."""
         crop, size = request.viewport.crop, request.viewport.size
         key = (drawing.digest, drawing.detail, crop, size)
         layers = self._layers.get(key)
@@ -128,8 +128,8 @@ class Painter:
         return layers
 
     def _paint(self, request: ViewRequest) -> bool:
-        """Paint and deliver, unless that would show something older or nothing new; False if
-        the request's light is not all there."""
+        """Paint and deliver a picture, unless it would be older or the same. False if light of the
+        request is missing."""
         shown = self._shown.setdefault(request.session, _Shown())
         current = self.state.views.get(request.session)
         if current is None or current.viewport != request.viewport:

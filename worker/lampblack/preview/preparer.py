@@ -1,4 +1,4 @@
-"""The preparer: a thread that prepares drawings to be lit, the most urgent first."""
+"""The preparer: a thread that prepares drawings, the most urgent first."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from .state import DrawingKey, PreviewState
 
 
 class _SupersededError(Exception):
-    """Something more urgent came up."""
+    """A more urgent drawing is wanted."""
 
 
 @dataclass
 class Preparer:
-    """Works off ``state.wanted``.
+    """Prepares the drawings in ``state.wanted``.
 
     Args:
-        pipeline: predicts and inflates; its renderer is not used.
-        done: takes the digest of every drawing that got on, its palette once that is found,
-            and the warnings met on the way.
+        pipeline: prepares drawings; its renderer is not used.
+        done: called after each step of a drawing, with its digest, its palette if that is known,
+            and warnings.
     """
 
     state: PreviewState
@@ -62,7 +62,7 @@ class Preparer:
                 prepared = self._prepare_full(key, planes)
         except _SupersededError:
             return True
-        except Exception as error:  # one drawing's trouble must not end all previews
+        except Exception as error:  # an error of one drawing must not end all previews
             self.state.fail(digest, error)
         else:
             self.state.drawings.put(key, prepared, prepared.nbytes)
@@ -72,14 +72,14 @@ class Preparer:
         return True
 
     def _warm_up(self) -> None:
-        """Load the network and what is compiled, before the first drawing comes."""
+        """Load the network and compiled functions before the first drawing."""
         disk = np.zeros((64, 64, 4), np.uint8)
         disk[12:52, 12:52] = 120, 120, 120, 255
         with collect_warnings(), suppress(LampblackError):
             preview_surface(self.pipeline.prepare_quick(DrawingPlanes(disk)), default_scene(64, 64))
 
     def _next(self) -> DrawingKey | None:
-        """The most urgent drawing that is missing and can be prepared."""
+        """The most urgent drawing that is not yet prepared and can be."""
         for key in self.state.wanted:
             digest, _ = key
             if key in self.state.drawings or self.state.failure(digest) is not None:
@@ -89,7 +89,7 @@ class Preparer:
         return None
 
     def _prepare_full(self, key: DrawingKey, planes: DrawingPlanes) -> PreparedDrawing:
-        """Raises _SupersededError: something more urgent came up."""
+        """Raises _SupersededError: a more urgent drawing is wanted."""
         digest, _ = key
         if self._decomposed is None or self._decomposed[0] != digest:
             with collect_warnings() as warnings:

@@ -1,4 +1,4 @@
-"""What a client wants to see at one moment, as one value that never changes."""
+"""View requests: what a client shows at one moment, as an immutable value."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ Show = Literal["lit", "normals", "relief"]
 
 @dataclass(frozen=True)
 class Viewport:
-    """What the client looks at: ``size`` device pixels (width, height) of ``crop``, in pixels
-    of the frame's drawing."""
+    """What a client shows: ``crop``, in pixels of the frame's drawing, at ``size`` (width, height)
+    device pixels."""
 
     request: int
     frame: int
@@ -32,8 +32,8 @@ class ResolvedView:
 
     Attributes:
         scene: in pixels of the drawing.
-        character: what of the character is traced, pixels of the drawing.
-        contributions: all that has to be traced.
+        character: the traced part of the character, in pixels of the drawing.
+        contributions: all light to trace.
     """
 
     scene: Scene
@@ -43,15 +43,15 @@ class ResolvedView:
 
 @dataclass(frozen=True)
 class ViewRequest:
-    """A viewport with all that it shows.
+    """A viewport with its drawing and scene.
 
     Attributes:
-        session: whose it is.
-        viewport: what is looked at.
-        digest: the drawing that the frame shows.
-        camera: canvas to view, see the specification's section 4.
-        revision: of the scene; 0 before the first.
-        scene: in canvas pixels, as it is at the frame; None before the first.
+        session: name of the session.
+        viewport: the client's viewport.
+        digest: digest of the drawing that the frame shows.
+        camera: from canvas to view, see section 4 of the specification.
+        revision: revision of the scene; 0 before the first.
+        scene: the scene at the frame, in canvas pixels; None before the first.
     """
 
     session: str
@@ -66,14 +66,15 @@ class ViewRequest:
 
     @property
     def order(self) -> tuple[int, int]:
-        """Rises with what is newer."""
+        """A sort key: newer requests are greater."""
         return self.viewport.request, self.revision
 
     def resolve(self, drawing: PreparedDrawing) -> ResolvedView | None:
-        """The scene on ``drawing``, prepared from the drawing of ``digest``; None without a scene.
+        """The scene on ``drawing``, which is prepared from the drawing ``digest``; None without a
+        scene.
 
-        It is worked out once for each detail, and then shared by all threads: should two of them
-        ask at once, both find the same.
+        It is computed once per detail and shared by all threads. If two threads compute it at the
+        same time, both get the same result.
         """
         if self.scene is None:
             return None

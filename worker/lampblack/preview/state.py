@@ -1,4 +1,4 @@
-"""What the threads of a preview share: what is wanted, and what has been made so far."""
+"""The state that the threads of a preview share: what is wanted, and what is made so far."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ MAX_FAILURES = 1000
 
 
 class PreviewState:
-    """State behind one lock; its condition is notified when any of it changes.
+    """State with one lock. Its condition is notified of every change.
 
-    Read the attributes freely; set them by the methods.
+    Read the attributes directly, and change them by the methods.
 
     Args:
         clock: monotonic seconds.
 
     Attributes:
-        views: by session, what is to be shown; viewports without a drawing are left out.
-        ahead: what may be looked at next, nearest first.
+        views: view requests by session; viewports without a drawing are omitted.
+        ahead: view requests that may come next, nearest first.
         wanted: drawings to prepare, the most urgent first.
-        changes: rises when something that is shown changes.
-        closing: the threads shall end.
-        renderer: what the renderer does; only the tracer sets it.
-        planes: by digest. drawings: prepared from them. lights: traced on these.
+        changes: a count that rises when something visible changes.
+        closing: whether the threads are to end.
+        renderer: state of the renderer; only the tracer sets it.
+        planes: pixel planes by digest. drawings: prepared drawings. lights: traced light.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
@@ -67,33 +67,35 @@ class PreviewState:
             self.condition.notify_all()
 
     def put_planes(self, digest: str, planes: DrawingPlanes) -> None:
-        """Hold the planes of a drawing."""
+        """Store the planes of a drawing."""
         with self.condition:
             self.planes.put(digest, planes, planes.nbytes)
             self.condition.notify_all()
 
     def fail(self, digest: str, error: Exception) -> None:
-        """A drawing cannot be lit: it is not prepared again."""
-        error.__cause__ = error.__context__ = None  # and no traceback: they hold large arrays
+        """Mark a drawing that cannot be lit, so that it is not prepared again."""
+        error.__cause__ = error.__context__ = (
+            None  # without traceback, which would keep large arrays
+        )
         with self.condition:
             self._failures[digest] = error.with_traceback(None)
             while len(self._failures) > MAX_FAILURES:
                 self._failures.pop(next(iter(self._failures)))
 
     def close(self) -> None:
-        """Have the threads end."""
+        """Tell the threads to end."""
         with self.condition:
             self.closing = True
             self.condition.notify_all()
 
     def failure(self, digest: str) -> Exception | None:
-        """Why a drawing cannot be lit; None if nothing is known against it."""
+        """Why a drawing cannot be lit; None if no reason is known."""
         return self._failures.get(digest)
 
     def drawing(self, digest: str) -> PreparedDrawing | None:
-        """A drawing in the fullest detail in which it is prepared."""
+        """A prepared drawing in the fullest detail so far."""
         return self.drawings.get((digest, "full")) or self.drawings.get((digest, "quick"))
 
     def still_for(self) -> float:
-        """Seconds since something that is shown changed."""
+        """Seconds since something visible changed."""
         return self._clock() - self._changed_at

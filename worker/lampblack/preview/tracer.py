@@ -1,4 +1,4 @@
-"""The tracer: a thread that drives the renderer of previews, the most urgent light first."""
+"""The tracer: a thread that traces light with the renderer of previews, the most urgent first."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ from .request import ResolvedView, ViewRequest
 from .state import PreviewState
 
 REST_SECONDS = 0.1
-"""Stillness after which light is refined."""
+"""Seconds without a change after which light is refined."""
 MOST_SECONDS = 0.036
-"""Longest that one light's pass should take while something changes."""
+"""Longest time for one light while something changes, seconds."""
 TICK_SECONDS = 1.0
 MAX_SURFACES = 6
 MAX_FAILURES = 3
 
 
 class PreviewRenderer(Protocol):
-    """What the tracer needs of a renderer; see ``RenderChild``."""
+    """The renderer of a tracer; see ``RenderChild``."""
 
     @property
     def alive(self) -> bool: ...
@@ -63,12 +63,12 @@ class PreviewRenderer(Protocol):
 
 @dataclass
 class Tracer:
-    """Keeps the light of what is wanted traced: coarse at once, then finer while all is still,
-    then that of the frames ahead, then nothing.
+    """Traces the light of all requests: first coarse, then finer while nothing changes, then the
+    light of frames that may come next.
 
     Args:
-        renderer: the tracer closes it in the end.
-        report: takes the loss of the renderer, for everybody who looks at something.
+        renderer: the tracer closes it.
+        report: receives the crash of the renderer, for all sessions with a viewport.
     """
 
     state: PreviewState
@@ -90,7 +90,7 @@ class Tracer:
         self.renderer.close()
 
     def step(self) -> bool:
-        """Do the most urgent piece of work; False if there is none. A lost renderer is started
+        """Do the most urgent piece of work; False if there is none. A crashed renderer is started
         again."""
         try:
             if not self.renderer.alive:
@@ -98,12 +98,12 @@ class Tracer:
             return self._trace_most_urgent()
         except RenderError as error:
             self._recover(error)
-        except Exception as error:  # one scene's trouble must not end all previews
+        except Exception as error:  # an error of one scene must not end all previews
             self._recover(RenderError("A preview could not be made.", details=repr(error)))
         return True
 
     def _rest(self) -> None:
-        """Wait for a change, or for the stillness after one."""
+        """Wait for a change, or for the pause after a change."""
         with self.state.condition:
             if self.state.closing:
                 return
@@ -127,7 +127,7 @@ class Tracer:
         return self._look_ahead(views)
 
     def _look_ahead(self, views: Sequence[ViewRequest]) -> bool:
-        """Light the frames that may be looked at next, for as long as there is room."""
+        """Trace light for frames that may come next, while there is memory."""
         lights = self.state.lights
         if lights.full:
             found = [self._resolve(request) for request in (*views, *self.state.ahead)]
@@ -141,7 +141,7 @@ class Tracer:
         return False
 
     def _show(self, request: ViewRequest) -> bool:
-        """Trace whatever cannot be shown at all yet."""
+        """Trace light without which the request cannot be shown."""
         found = self._resolve(request)
         if found is None:
             return False
@@ -160,8 +160,7 @@ class Tracer:
         return True
 
     def _refine(self, request: ViewRequest, level: int) -> bool:
-        """Bring one contribution of the request up to ``level``, unless something else comes
-        up."""
+        """Refine one contribution of the request to ``level``, unless something changes."""
         found = self._resolve(request)
         if found is None:
             return False
@@ -179,8 +178,7 @@ class Tracer:
         return False
 
     def _resolve(self, request: ViewRequest) -> tuple[PreparedDrawing, ResolvedView] | None:
-        """The drawing and the scene on it; None if there is no scene, or the drawing is not
-        prepared."""
+        """The prepared drawing and the scene on it; None if either is missing."""
         drawing = self.state.drawing(request.digest)
         view = None if drawing is None else request.resolve(drawing)
         return None if drawing is None or view is None else (drawing, view)
@@ -188,7 +186,7 @@ class Tracer:
     def _accumulate(
         self, contribution: LightContribution, surface: Surface, how: RefinementLevel, level: int
     ) -> bool:
-        """Trace ``contribution``; False if something else came up before it was done."""
+        """Trace ``contribution``; False if something changed before it was finished."""
         began = self.state.changes
         try:
             for first in range(0, how.spp, how.at_once):
@@ -207,7 +205,7 @@ class Tracer:
             self._failures[contribution.key] = self._failures.get(contribution.key, 0) + 1
             raise
         if level < LOW and contribution.subject == "floor":
-            # So few samples leave blotches; a soft shadow moves better than a ragged one.
+            # So few samples leave blotches; in motion a soft shadow looks better than a ragged one.
             found = tuple(gaussian_filter(half, (0.8, 0.8, 0)) for half in found)
         first_half, second_half = found
         light = AccumulatedLight(level, how.spp, contribution.amounts, first_half, second_half)
@@ -216,7 +214,7 @@ class Tracer:
         return True
 
     def _is_below(self, contribution: LightContribution, level: int) -> bool:
-        """Whether there is only light coarser than ``level``, and the renderer can trace finer."""
+        """Whether the light is coarser than ``level``, and the renderer can refine it."""
         return (
             self.state.lights.level(contribution) < level
             and self._failures.get(contribution.key, 0) < MAX_FAILURES
@@ -228,7 +226,7 @@ class Tracer:
         return MOVING[self._pace] if contribution.light else FIRST_AMBIENT
 
     def _keep_pace(self, seconds: float) -> None:
-        """Choose how fine the next passing trace is by how long this one took."""
+        """Choose the level of the next trace during a change by the time that this one took."""
         if seconds > MOST_SECONDS:
             self._pace, self._quick = max(0, self._pace - 1), 0
         elif seconds < MOST_SECONDS * 0.6:
@@ -246,7 +244,7 @@ class Tracer:
         return self._surfaces[key]
 
     def _warm_up(self) -> None:
-        """Start the renderer, and have it trace a little, so that all it needs is loaded."""
+        """Start the renderer, and trace a small picture, so that everything is loaded."""
         canvas, size = Canvas(8, 8), (8, 8)
         corners = np.array([[0, 0, 0], [8, 0, 0], [0, 8, 0]], np.float32)
         relief = Relief(corners, np.array([[0, 2, 1]], np.int32))
@@ -261,8 +259,8 @@ class Tracer:
         self.state.renderer = "idle"
 
     def _recover(self, error: RenderError) -> None:
-        """Start the renderer again and report it, once; when it is lost again and again, wait
-        longer each time, so that reports come to an end."""
+        """Start the renderer again, and report it once. After repeated crashes, wait longer each
+        time, so that the reports stop."""
         if self.state.closing:
             return
         self._losses += 1
@@ -275,5 +273,5 @@ class Tracer:
                 self.state.condition.wait_for(
                     lambda: self.state.closing, min(30.0, 0.5 * 2 ** (self._losses - MAX_FAILURES))
                 )
-        with suppress(OSError):  # the next step finds that there is none, and tries again
+        with suppress(OSError):  # the next step notices this and tries again
             self.renderer.start()

@@ -1,1 +1,1 @@
-"""The live worker: drawings, lights and looks come in over ZeroMQ, lit pictures go out."""
+"""The live worker: receives drawings, scenes and viewports over ZeroMQ, and sends lit pictures."""

@@ -1,4 +1,4 @@
-"""A client of the worker: what tests and benchmarks drive it with, and an example of one."""
+"""A client of the worker, for tests and benchmarks, and as an example."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ Kind = TypeVar("Kind", bound=Message)
 
 
 class Client:
-    """One connection to a worker; of one thread. Use as a context manager.
+    """A connection to a worker, used by one thread. Use as a context manager.
 
-    It holds the drawings it announced, and answers need_frame by itself.
+    It keeps the drawings that it announced, and answers need_frame itself.
 
     Args:
-        endpoint: from the connection file.
+        endpoint: address from the connection file.
     """
 
     def __init__(self, endpoint: str) -> None:
@@ -83,7 +83,7 @@ class Client:
         self.socket.send_multipart(encode(message, planes))
 
     def receive(self, seconds: float) -> Received | None:
-        """The next message, None if none comes in time; need_frame is answered on the way."""
+        """The next message; None if none arrives in time. need_frame is answered."""
         if not self.socket.poll(max(0, round(seconds * 1000))):
             return None
         received = decode(self.socket.recv_multipart(), "worker")
@@ -99,10 +99,10 @@ class Client:
     def wait_for(
         self, kind: type[Kind], seconds: float = 30, where: Callable[[Kind], bool] = lambda m: True
     ) -> tuple[Kind, dict[Role, Pixels]]:
-        """The next message of a kind, and its planes; others are passed over.
+        """The next message of a kind, and its planes; other messages are skipped.
 
         Raises:
-            TimeoutError: none came in time.
+            TimeoutError: none arrived in time.
         """
         until = time.monotonic() + seconds
         while (left := until - time.monotonic()) > 0:
@@ -114,12 +114,12 @@ class Client:
         raise TimeoutError(f"no {kind.__name__} within {seconds} s; seen: {self.seen[-5:]}")
 
     def hello(self, seconds: float = 30) -> Welcome:
-        """Greet the worker."""
+        """Send hello and wait for welcome."""
         self.send(Hello(minor=MINOR, client="lampblack", client_version=__version__))
         return self.wait_for(Welcome, seconds)[0]
 
     def announce(self, frame: int, pixels: NDArray[np.uint8], **more: NDArray[np.uint8]) -> str:
-        """Say that ``frame`` shows a drawing, (H, W, 4) uint8; its planes go when asked for."""
+        """Announce that ``frame`` shows a drawing, (H, W, 4) uint8; planes are sent on request."""
         planes: dict[Role, Pixels] = {"pixels": pixels}
         planes |= {role: more[role] for role in ("mask", "ink") if role in more}
         digest = frame_digest(planes)
@@ -128,20 +128,21 @@ class Client:
         return digest
 
     def set_scene(self, scene: Scene) -> int:
-        """Replace the scene; its revision."""
+        """Replace the scene. Returns its revision."""
         self.revision += 1
         self.send(SetScene(revision=self.revision, scene=scene))
         return self.revision
 
     def next_request(self) -> int:
-        """A request number of its own."""
+        """A new request number."""
         self.request += 1
         return self.request
 
     def look(
         self, frame: int, size: tuple[int, int], crop: tuple[float, float, float, float]
     ) -> int:
-        """Look at a crop of a frame, at ``size`` device pixels; the request's number."""
+        """Set the viewport to a crop of a frame, at ``size`` device pixels. Returns the request's
+        number."""
         x, y, width, height = crop
         request = self.next_request()
         self.send(
@@ -158,18 +159,18 @@ class Client:
     def picture(
         self, seconds: float = 30, where: Callable[[Image], bool] = lambda image: True
     ) -> tuple[Image, Pixels]:
-        """The next picture that fits, (H, W, 4) uint8 premultiplied."""
+        """The next matching image and its picture, (H, W, 4) uint8 premultiplied."""
         image, planes = self.wait_for(Image, seconds, where)
         return image, planes["picture"]
 
 
 class Worker:
-    """A worker in a process of its own. Use as a context manager.
+    """A worker in its own process. Use as a context manager.
 
     Args:
-        folder: for its connection file.
-        parent: it leaves when this process does.
-        environment: variables of its own.
+        folder: folder for its connection file.
+        parent: process ID; the worker ends when this process ends.
+        environment: additional environment variables.
     """
 
     def __init__(
@@ -205,10 +206,10 @@ class Worker:
             self.process.wait()
 
     def endpoint(self, seconds: float = 60) -> str:
-        """Where it is to be found, once it is ready.
+        """Its connection, when it is ready.
 
         Raises:
-            LampblackError: it ended, or is not ready in time.
+            LampblackError: the worker ended, or is not ready in time.
         """
         until = time.monotonic() + seconds
         while time.monotonic() < until and self.process.poll() is None:
@@ -219,5 +220,5 @@ class Worker:
         raise LampblackError("The worker did not get ready.", details=f"{self.process.poll()}")
 
     def connect(self) -> Client:
-        """A client that has not said hello yet."""
+        """A new client, before hello."""
         return Client(self.endpoint())

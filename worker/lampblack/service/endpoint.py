@@ -1,4 +1,4 @@
-"""Where the worker is to be found: a private socket, and a file that says so."""
+"""The worker's private socket address, and the connection file."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ MAX_PATH_BYTES = 107
 
 @contextmanager
 def private_endpoint() -> Iterator[str]:
-    """An ``ipc://`` address in a fresh directory that only this user enters; removed with all
-    that is in it when the block ends.
+    """An ``ipc://`` address in a new directory that only this user can enter. The directory is
+    removed when the block ends.
 
     Raises:
-        OutputError: no such directory can be made.
+        OutputError: the directory cannot be made.
     """
     folder = _fresh_folder()
     try:
@@ -38,8 +38,8 @@ def private_endpoint() -> Iterator[str]:
 
 @contextmanager
 def connection_file(path: Path, endpoint: str) -> Iterator[None]:
-    """Tell of ``endpoint`` in a file that appears whole, readable by this user only, and that
-    goes when the block ends, unless another worker wrote its own in its place.
+    """Write the connection file of ``endpoint``, readable by this user only. It appears whole. It
+    is removed when the block ends, unless another worker has replaced it.
 
     Raises:
         OutputError: it cannot be written.
@@ -62,10 +62,10 @@ def connection_file(path: Path, endpoint: str) -> Iterator[None]:
 
 
 def read_connection(path: Path) -> Connection:
-    """What a worker wrote there.
+    """Read a connection file.
 
     Raises:
-        OSError: there is no such file. msgspec.DecodeError: it holds something else.
+        OSError: there is no such file. msgspec.DecodeError: it is malformed.
     """
     return msgspec.json.decode(path.read_bytes(), type=Connection)
 

@@ -1,4 +1,4 @@
-"""What went wrong, as the protocol says it: the one way from exceptions to error codes."""
+"""From exceptions to error codes and error messages of the protocol."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ _CODES: tuple[tuple[type[Exception], ErrorCode], ...] = (
     (LampblackError, ErrorCode.DRAWING_UNUSABLE),
     (MemoryError, ErrorCode.OUT_OF_MEMORY),
 )
-"""The first kind that fits counts."""
+"""The first matching type counts."""
 
 
 def error_code(error: Exception) -> ErrorCode:
-    """The code of an error met while a drawing is prepared, lit or written."""
+    """The code of an error that occurred while a drawing was prepared, lit or written."""
     return next((code for kind, code in _CODES if isinstance(error, kind)), ErrorCode.INTERNAL)
 
 
 def fault_message(
     error: Exception, *, request: int | None = None, frame: int | None = None
 ) -> ErrorMessage:
-    """The message that reports ``error``; it has words of its own only if it is for people."""
+    """The message that reports ``error``. Its text is that of a ``LampblackError``, or the
+    catalogue's."""
     code = error_code(error)
     if isinstance(error, LampblackError):
         return error_message(

@@ -1,4 +1,4 @@
-"""What each message of a client does."""
+"""Handlers of the messages of a client."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ Planes = dict[Role, Pixels]
 
 
 def handle(service: Service, identity: bytes, message: Message, planes: Planes) -> None:
-    """Act upon a message that was found sound."""
+    """Handle a valid message."""
     session = service.sessions.get(identity)
     if isinstance(message, Hello):
         _hello(service, identity, message)

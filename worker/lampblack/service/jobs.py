@@ -1,4 +1,4 @@
-"""Render jobs: a queue, and a thread that renders them with a renderer of its own."""
+"""Render jobs: a queue, and a thread with its own renderer."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from .session_shot import SessionShot
 NICENESS = 10
 MAX_WAITING = 16
 PLANES_SECONDS = 20.0
-"""How long a client may take to send a drawing that a job needs."""
+"""Seconds that a client may take to send a drawing for a job."""
 
 
 class _Cancelled(Exception):
@@ -42,7 +42,7 @@ class _Cancelled(Exception):
 
 @dataclass
 class Job:
-    """A render message, with the scene and the frames as they were when it came."""
+    """A render message, with the scene and the frames at the time of the message."""
 
     session: str
     message: Render
@@ -56,15 +56,15 @@ class Job:
 
 @dataclass
 class Jobs:
-    """Works off jobs one after another.
+    """Renders jobs one after another.
 
     Args:
-        previews: their planes are used too.
-        need: asks the client of a session for the planes of a drawing.
+        previews: state of the preview, whose planes are used too.
+        need: requests the planes of a drawing from the client of a session.
         deliver: sends a message to a session.
 
     Attributes:
-        state: what the renderer of jobs does.
+        state: state of the renderer of jobs.
     """
 
     previews: PreviewState
@@ -78,16 +78,16 @@ class Jobs:
 
     @property
     def waiting(self) -> int:
-        """Jobs not yet begun."""
+        """Number of jobs that have not begun."""
         return len(self._waiting)
 
     @property
     def renderer_pid(self) -> int | None:
-        """Process of the renderer, None while there is none."""
+        """Process ID of the renderer; None if it does not run."""
         return self.pipeline.renderer.pid
 
     def submit(self, job: Job) -> bool:
-        """Queue a job; False if too many wait."""
+        """Queue a job; False if too many jobs wait."""
         with self._condition:
             if len(self._waiting) >= MAX_WAITING:
                 return False
@@ -96,11 +96,11 @@ class Jobs:
         return True
 
     def cancel(self, session: str, request: int | None = None) -> None:
-        """End a job of the session, or all of them."""
+        """Cancel a job of the session, or all of them."""
         self._cancel(lambda job: job.session == session and request in (None, job.message.request))
 
     def close(self) -> None:
-        """Drop everything; the thread ends with the previews."""
+        """Drop all jobs. The thread ends together with the preview."""
         self._cancel(lambda job: True)
 
     def _cancel(self, which: Callable[[Job], bool]) -> None:
@@ -112,7 +112,7 @@ class Jobs:
             self._condition.notify()
 
     def run(self) -> None:
-        """Work until the previews close."""
+        """Render jobs until the preview closes."""
         while True:
             with self._condition:
                 self._condition.wait_for(lambda: self._waiting or self.previews.closing)
@@ -124,7 +124,7 @@ class Jobs:
             with self._condition:
                 self._current = None
             if not self._waiting:
-                self.pipeline.close()  # a renderer of finals holds much memory
+                self.pipeline.close()  # a renderer of finals takes much memory
             self.state = "off" if self.renderer_pid is None else "idle"
         self.pipeline.close()
 
@@ -139,7 +139,7 @@ class Jobs:
             render_shot(self._resolve(job), self.pipeline, None, _Reporter(self, job), check)
         except _Cancelled:
             outcome = "cancelled"
-        except Exception as error:  # one job's trouble must not end the thread
+        except Exception as error:  # an error of one job must not end the thread
             self.report(job, error)
             outcome = "failed"
         self.deliver(
@@ -154,7 +154,7 @@ class Jobs:
         )
 
     def _resolve(self, job: Job) -> ResolvedJob:
-        """Raises OutputError: the files cannot be written there."""
+        """Raises OutputError: files cannot be written there."""
         message = job.message
         shot = SessionShot(
             job.contents,
@@ -182,7 +182,7 @@ class Jobs:
         )
 
     def _planes(self, job: Job, digest: str) -> DrawingPlanes:
-        """The drawing's planes, asked for if they are not held."""
+        """The drawing's planes, requested from the client if they are not stored."""
         planes = self.previews.planes.get(digest)
         if planes is None:
             self.need(job.session, digest)
@@ -198,13 +198,13 @@ class Jobs:
         return planes
 
     def report(self, job: Job, error: Exception, frame: int | None = None) -> None:
-        """Tell the client of an error."""
+        """Send an error to the client."""
         self.deliver(job.session, fault_message(error, request=job.message.request, frame=frame))
 
 
 @dataclass
 class _Reporter(RenderListener):
-    """Tells the client how its job goes on."""
+    """Sends the events of a job to its client."""
 
     jobs: Jobs
     job: Job

@@ -1,4 +1,4 @@
-"""How much memory the worker and its children take."""
+"""Memory of the worker and its child processes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def resident_bytes(children: Iterable[int | None] = ()) -> int:
-    """Resident memory of this process and of ``children``, where the system tells."""
+    """Resident memory in bytes of this process and ``children``, where the system reports it."""
     total = 0
     for pid in (os.getpid(), *children):
         try:

@@ -1,4 +1,4 @@
-"""What waits to be sent to one client: never more than one picture, and the newest at that."""
+"""The messages that wait to be sent to one client, with at most one picture, the newest."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ MAX_WAITING = 1000
 
 
 class Outbox:
-    """Messages in their order; a picture takes the place of one that was not sent yet."""
+    """Messages in order. A picture replaces an unsent picture."""
 
     def __init__(self) -> None:
         self._waiting: deque[tuple[Frames, bool]] = deque()
@@ -22,14 +22,14 @@ class Outbox:
         self._waiting.append((frames, picture))
 
     def first(self) -> Frames | None:
-        """What is to be sent next."""
+        """The next message to send."""
         return self._waiting[0][0] if self._waiting else None
 
     def sent(self) -> None:
-        """The first message is on its way."""
+        """Remove the first message, which was sent."""
         self._waiting.popleft()
 
     @property
     def overflows(self) -> bool:
-        """Whether the client has not been reading for far too long."""
+        """Whether too many messages wait, because the client does not read."""
         return len(self._waiting) > MAX_WAITING

@@ -1,4 +1,4 @@
-"""From what clients set to what has to be made: views, prepared drawings, drawings to ask for."""
+"""The planner: from the sessions to the view requests and drawings that the preview needs."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from .faults import fault_message
 from .session import Session
 
 MAX_ASKED = 2
-"""Drawings asked of a client at once, for frames that it does not look at."""
+"""Most drawings requested from a client at the same time, for frames outside its viewport."""
 AHEAD_SHARE = 0.7
-"""Share of the room for prepared drawings that frames not looked at may take."""
+"""Share of the memory for prepared drawings that frames outside a viewport may take."""
 
 
 @dataclass
 class Planner:
-    """Says what is wanted of the preview; used by the owner's thread alone.
+    """Tells the preview what is wanted. Only the owner's thread uses it.
 
     Args:
-        sessions: all there are, by identity; the owner's own.
+        sessions: all sessions by identity; shared with the owner.
         send: queues a message for a session.
     """
 
@@ -42,18 +42,18 @@ class Planner:
     _dirty: bool = False
 
     def changed(self) -> None:
-        """Something that a client set, or that was made for it, is different now."""
+        """Note that something a client set, or a result for it, has changed."""
         self._dirty = True
 
     def note(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
-        """The preparer got on with a drawing."""
+        """Note that the preparer finished a step of a drawing."""
         if palette is not None:
             self._palettes.put(digest, palette, 64 * len(palette.swatches) + 64)
             self._warnings.put(digest, warnings, 1000)
         self.changed()
 
     def plan(self) -> None:
-        """Say what is wanted now, if that has changed."""
+        """Update what is wanted, if something has changed."""
         if not self._dirty:
             return
         self._dirty = False
@@ -81,7 +81,7 @@ class Planner:
             self._answer_palettes(session)
 
     def frames_held(self, session: Session) -> int:
-        """Frames whose drawing is held, or prepared."""
+        """Number of frames whose drawing is stored or prepared."""
         held = {
             digest
             for digest in {content.digest for content in session.frames.values()}
@@ -90,7 +90,7 @@ class Planner:
         return sum(content.digest in held for content in session.frames.values())
 
     def frames_lit(self, session: Session) -> int:
-        """Frames that can be shown at once, at low quality or better."""
+        """Number of frames that can be shown at once, at low quality or better."""
         view = session.view()
         lit = set()
         for request in [*([view] if view else []), *session.ahead()]:
@@ -102,7 +102,8 @@ class Planner:
         return sum(session.sight(frame) in lit for frame in session.frames)
 
     def _nearest(self, session: Session) -> list[ViewRequest]:
-        """Frames ahead, as many as there is room for; those not held are asked for."""
+        """View requests for frames that may come next, as many as fit into memory. Missing drawings
+        are requested."""
         view = session.view()
         if view is None or view.viewport.show != "lit":
             return []
@@ -118,21 +119,21 @@ class Planner:
         return nearest
 
     def _request_missing(self, session: Session, digest: str) -> None:
-        """Ask for a drawing that is not held, once."""
+        """Request a missing drawing, once."""
         held = digest in self.state.planes or (digest, "full") in self.state.drawings
         if held or digest in session.asked or self.state.failure(digest) is not None:
             return
         self.ask(session, digest)
 
     def ask(self, session: Session, digest: str) -> None:
-        """Ask for a drawing, if a frame still shows it."""
+        """Request a drawing, if a frame still shows it."""
         frame = session.frame_showing(digest)
         if frame is not None:
             session.asked.add(digest)
             self.send(session, NeedFrame(frame=frame, digest=digest))
 
     def _report_drawing(self, session: Session, view: ViewRequest) -> None:
-        """Report, once, what is wrong with the drawing that is looked at."""
+        """Report the error of the visible drawing, once."""
         frame, digest = view.viewport.frame, view.digest
         failure, warnings = self.state.failure(digest), self._warnings.get(digest)
         if digest in session.informed or (failure is None and warnings is None):

@@ -1,4 +1,4 @@
-"""The life of a worker: from its socket's making to its leaving without a trace."""
+"""Running a worker: creates its socket, serves, and cleans up."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from .socket import RouterSocket
 
 
 def serve_forever(connection: Path, parent: int | None = None) -> None:
-    """Serve until interrupted, or until the process ``parent`` is gone.
+    """Serve until interrupted, or until the process ``parent`` ends.
 
-    Nothing stays behind: no socket, no file, no child.
+    Socket, file and child processes are removed at the end.
 
     Raises:
-        LampblackError: there is no such parent, or no place for the socket or the file.
+        LampblackError: there is no such parent, or the socket or the file cannot be made.
     """
     watched = None if parent is None else _watch(parent)
     install_warning_collector()

@@ -1,4 +1,4 @@
-"""The loop that joins socket and service."""
+"""The main loop between socket and service."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from .socket import RouterSocket
 
 
 class Server:
-    """Serves in the thread that calls ``run``; it closes neither socket nor renderers made
-    elsewhere, but ends the service's threads."""
+    """Serves in the thread that calls ``run``. It ends the service's threads, but does not close
+    the socket."""
 
     def __init__(self, socket: RouterSocket, service: Service) -> None:
         self._socket = socket
         self._service = service
 
     def run(self, gone: Callable[[], bool] = lambda: False, watched: int | None = None) -> None:
-        """Serve until ``gone`` says that there is nobody left to serve.
+        """Serve until ``gone`` returns True.
 
         Args:
-            gone: asked at every turn.
-            watched: a descriptor that becomes readable when ``gone`` may have changed.
+            gone: called in every iteration.
+            watched: descriptor that becomes readable when ``gone`` may have changed.
         """
         self._service.start()
         try:
@@ -46,7 +46,7 @@ class Server:
             handle(self._service, identity, message, planes)
         except ProtocolError as error:
             self._service.answer(identity, answer_to(error))
-        except Exception as error:  # whatever a message does, the others are served
+        except Exception as error:  # an error of one message must not affect the others
             details = repr(error)
             self._service.answer(identity, error_message(ErrorCode.INTERNAL, details=details))
 

@@ -1,4 +1,4 @@
-"""The worker behind the socket: its sessions, its preview, and its render jobs."""
+"""The service of a worker: sessions, preview and render jobs, without the socket."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ STATUS_SECONDS = 1.0
 
 
 class Transport(Protocol):
-    """How messages reach clients; see ``RouterSocket``."""
+    """Sends messages to clients; see ``RouterSocket``."""
 
     def put(self, identity: bytes, frames: Frames, *, picture: bool = False) -> None: ...
 
@@ -35,12 +35,12 @@ class Transport(Protocol):
 
 
 class Service:
-    """All that clients share. Its methods are for the thread that owns the transport, but for
-    those that ``PreviewListener`` names, ``deliver`` and ``request_planes``.
+    """Everything that clients share. Only the thread that owns the transport may call its methods,
+    except ``deliver``, ``request_planes`` and those of ``PreviewListener``.
 
     Args:
-        renderer, pipeline: of previews.
-        job_pipeline: of render jobs; closed with them.
+        renderer, pipeline: for previews.
+        job_pipeline: for render jobs, and closed with them.
         clock: monotonic seconds.
     """
 
@@ -76,13 +76,13 @@ class Service:
             self._job_thread.join(2)
 
     def turn(self) -> None:
-        """Plan what has changed, and send the status when it is due."""
+        """Plan after changes, and send the status when it is due."""
         self.planner.plan()
         self._send_status()
 
     @property
     def patience(self) -> float:
-        """Seconds until something is due."""
+        """Seconds until the next status is due."""
         return max(0.0, self._next_status - self._clock())
 
     def send(self, session: Session, message: Message) -> None:
@@ -90,7 +90,7 @@ class Service:
         self._transport.put(session.identity, encode(message))
 
     def answer(self, identity: bytes, message: Message) -> None:
-        """Answer a client, greeted or not."""
+        """Answer a client, with or without a session."""
         if identity in self.sessions:
             self._transport.put(identity, encode(message))
         else:
@@ -111,7 +111,7 @@ class Service:
         self._transport.post(put)
 
     def request_planes(self, name: str, digest: str) -> None:
-        """Ask the session ``name`` for a drawing that a job needs; any thread may call this."""
+        """Request a drawing for a job from the session ``name``; any thread may call this."""
 
         def ask() -> None:
             for session in self.sessions.values():
@@ -138,7 +138,7 @@ class Service:
         self.deliver(request.session, message, {"picture": image.picture})
 
     def on_drawing(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
-        """Take note of a drawing that got on."""
+        """Handle a finished step of a drawing."""
         self._transport.post(lambda: self.planner.note(digest, palette, warnings))
 
     def on_preview_error(self, session: str, error: Exception) -> None:
@@ -146,7 +146,7 @@ class Service:
         self.deliver(session, fault_message(error))
 
     def part_with(self, session: Session) -> None:
-        """Drop a client and what it asked for."""
+        """Drop a client with its requests."""
         self.sessions.pop(session.identity, None)
         self._transport.forget(session.identity)
         self.jobs.cancel(session.name)
@@ -154,12 +154,12 @@ class Service:
         self.planner.changed()
 
     def say_goodbye(self) -> None:
-        """Tell every client that the worker leaves."""
+        """Send bye to every client."""
         for session in self.sessions.values():
             self.send(session, Bye(reason="The worker leaves."))
 
     def hurry_status(self) -> None:
-        """Send the next status at once."""
+        """Make the next status due at once."""
         self._next_status = 0.0
 
     def _send_status(self) -> None:

@@ -1,4 +1,4 @@
-"""What the worker knows of one client."""
+"""The session of one client."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..timeline import is_keyed, scene_at
 
 @dataclass(frozen=True)
 class FrameContent:
-    """What a frame shows."""
+    """The content of a frame: its drawing and camera."""
 
     digest: str
     camera: Affine
@@ -24,16 +24,16 @@ class FrameContent:
 
 @dataclass
 class Session:
-    """One client, from its hello on.
+    """One client after its hello.
 
-    Set what it shows by the methods, which drop the requests made of it before.
+    Change its content by the methods, which also drop cached requests.
 
     Attributes:
-        identity: its routing identity. name: its session's name.
-        frames: what each frame shows. viewport: what it looks at.
-        request: the last request number. asked: drawings that need_frame asked for.
+        identity: routing identity. name: name of the session.
+        frames: content of each frame. viewport: what the client shows.
+        request: last request number. asked: drawings that need_frame has requested.
         palettes: requests for palettes, with their frame, that wait for a drawing.
-        informed: drawings whose troubles it was sent.
+        informed: drawings whose errors were sent.
     """
 
     identity: bytes
@@ -54,12 +54,12 @@ class Session:
         self._requests.clear()
 
     def look_at(self, viewport: Viewport | None) -> None:
-        """Look at something else, or at nothing."""
+        """Set or remove the viewport."""
         self.viewport = viewport
         self._requests.clear()
 
     def put_frame(self, frame: int, content: FrameContent) -> None:
-        """Let ``frame`` show something else."""
+        """Set the content of ``frame``."""
         before = self.frames.get(frame)
         if before is not None and before.digest != content.digest:
             self.asked.discard(before.digest)  # a client does not send what no frame shows
@@ -67,7 +67,7 @@ class Session:
         self._requests.pop(frame, None)
 
     def drop_frame(self, frame: int) -> None:
-        """``frame`` shows nothing any more."""
+        """Remove the content of ``frame``."""
         before = self.frames.pop(frame, None)
         if before is not None:
             self.asked.discard(before.digest)
@@ -75,11 +75,11 @@ class Session:
         self._requests.pop(frame, None)
 
     def view(self) -> ViewRequest | None:
-        """What is looked at now; None for nothing, or a frame without a drawing."""
+        """The current view request; None without a viewport, or if its frame has no drawing."""
         return None if self.viewport is None else self._request_for(self.viewport)
 
     def ahead(self) -> Iterator[ViewRequest]:
-        """What may be looked at next: the other frames, nearest first, each sight once."""
+        """View requests that may come next: other frames, nearest first, equal ones once."""
         viewport = self.viewport
         if viewport is None or self.scene is None or viewport.frame not in self.frames:
             return
@@ -93,26 +93,26 @@ class Session:
                 yield request
 
     def sight(self, frame: int) -> Hashable:
-        """The same for frames that look alike: by their drawing, unless the light is keyed."""
+        """Equal for frames that look the same: by drawing, and by frame if the scene has keys."""
         digest = self.frames[frame].digest
         return (digest, frame) if self.scene is not None and is_keyed(self.scene) else digest
 
     def frame_showing(self, digest: str) -> int | None:
-        """A frame that shows the drawing, the one that is looked at before others."""
+        """A frame that shows the drawing; preferably the one in the viewport."""
         seen = self.viewport and self.frames.get(self.viewport.frame)
         if self.viewport and seen and seen.digest == digest:
             return self.viewport.frame
         return next((n for n, content in self.frames.items() if content.digest == digest), None)
 
     def check_request(self, request: int) -> Message | None:
-        """Take a request number; the error to answer if it does not rise."""
+        """Accept a request number. Returns the error if it does not rise."""
         if request <= self.request:
             return error_message(ErrorCode.STALE_REQUEST, request=request)
         self.request = request
         return None
 
     def _request_for(self, viewport: Viewport) -> ViewRequest | None:
-        """The same request as before while nothing of it changes, with all it worked out."""
+        """The cached request, with its computed results, while nothing of it changes."""
         content = self.frames.get(viewport.frame)
         if content is None:
             return None

@@ -1,4 +1,4 @@
-"""The frames that a client announced, as a shot."""
+"""The announced frames of a client, as a shot."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ from .session import FrameContent
 
 
 class SessionShot:
-    """Drawings as the client sees them: each is lit in its own view, which is the finished frame.
+    """Frames as the client sees them: each drawing is lit in its own view, which is the finished
+    frame.
 
     Args:
-        contents: what each frame of the animation shows.
-        canvas: of the scene.
-        output: a pattern with ``%04d``, which names the frames.
-        planes: finds a drawing by its digest; raises LampblackError if it cannot be had.
+        contents: content of each frame of the animation.
+        canvas: the scene's canvas.
+        output: pattern with ``%04d`` for the names of the frames.
+        planes: returns a drawing by its digest, or raises LampblackError.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The worker's ROUTER socket: messages in, messages out, and events from other threads."""
+"""The worker's ROUTER socket: receives and sends messages, and takes events from other threads."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from .outbox import Frames, Outbox
 
 HIGH_WATER = 4
 DRAIN = 64
-"""Messages taken in before anything else is looked after."""
+"""Most messages received in one iteration."""
 RETRY_SECONDS = 0.02
 
 Event = Callable[[], None]
 
 
 class RouterSocket:
-    """One thread owns it; any other may ``post``.
+    """One thread owns the socket; any thread may ``post``.
 
     Args:
-        context: of the socket.
-        endpoint: to bind to.
+        context: ZeroMQ context.
+        endpoint: address to bind to.
     """
 
     def __init__(self, context: zmq.Context[zmq.Socket[bytes]], endpoint: str) -> None:
@@ -40,12 +40,12 @@ class RouterSocket:
         self._outboxes: dict[bytes, Outbox] = {}
 
     def close(self) -> None:
-        """Close the socket; what was not sent is lost."""
+        """Close the socket; unsent messages are lost."""
         self._router.close(0)
         os.close(self._wake)
 
     def post(self, event: Event) -> None:
-        """Have ``event`` happen in the owner's thread; any thread may call this."""
+        """Run ``event`` in the owner's thread; any thread may call this."""
         self._events.put(event)
         try:
             os.eventfd_write(self._wake, 1)
@@ -53,8 +53,8 @@ class RouterSocket:
             return  # the worker is closing
 
     def wait(self, seconds: float, watched: int | None = None) -> None:
-        """Return when there is a message or an event, when ``watched`` becomes readable, or
-        after ``seconds``; sooner if a client is to be tried again."""
+        """Wait for a message, an event, ``watched`` to become readable, or ``seconds``; shorter if
+        sending to a client must be retried."""
         poller = zmq.Poller()
         for thing in (self._router, self._wake, *([] if watched is None else [watched])):
             poller.register(thing, zmq.POLLIN)
@@ -64,7 +64,7 @@ class RouterSocket:
             os.eventfd_read(self._wake)
 
     def messages(self) -> Iterator[tuple[bytes, list[bytes]]]:
-        """Some of the messages that have come, each with the identity of its sender."""
+        """Some of the received messages, each with the identity of its sender."""
         for _ in range(DRAIN):
             try:
                 identity, *frames = self._router.recv_multipart(zmq.NOBLOCK)
@@ -73,20 +73,20 @@ class RouterSocket:
             yield identity, frames
 
     def events(self) -> Iterator[Event]:
-        """What other threads have posted."""
+        """The events that other threads have posted."""
         while not self._events.empty():
             yield self._events.get()
 
     def put(self, identity: bytes, frames: Frames, *, picture: bool = False) -> None:
-        """Queue a message; a picture takes the place of one that was not sent yet."""
+        """Queue a message. A picture replaces an unsent picture."""
         self._outboxes.setdefault(identity, Outbox()).put(frames, picture=picture)
 
     def forget(self, identity: bytes) -> None:
-        """Drop what was queued for a client."""
+        """Drop all messages queued for a client."""
         self._outboxes.pop(identity, None)
 
     def flush(self) -> list[bytes]:
-        """Send what can be sent; the clients that are gone, or have not read for far too long."""
+        """Send messages. Returns the clients that have gone or do not read."""
         return [
             identity
             for identity, outbox in self._outboxes.items()
@@ -104,7 +104,7 @@ class RouterSocket:
         return True
 
     def try_to_send(self, identity: bytes, frames: Frames) -> bool | None:
-        """Send past the queue; False if the client must read first, None if it is gone."""
+        """Send without the queue; False if the client must read first, None if it has gone."""
         try:
             self._router.send_multipart([identity, *frames], zmq.NOBLOCK)
         except zmq.Again:
