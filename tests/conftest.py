@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 import warnings
@@ -23,6 +24,14 @@ from support.window import missing
 TESTS = Path(__file__).parent
 SHARED = ("display", "worker", "child", "pipeline")
 """Fixtures of the session. Tests that use one go to one process, so that it is made once."""
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Share the cores out to ``pytest -n``: two that each take all of them wait for each other."""
+    processes = config.getoption("numprocesses", None)
+    if processes:
+        cores = len(os.sched_getaffinity(0))
+        os.environ.setdefault("OMP_NUM_THREADS", str(max(1, cores // processes)))
 
 
 @pytest.hookimpl(tryfirst=True)
