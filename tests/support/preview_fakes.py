@@ -27,7 +27,7 @@ from lampblack.protocol import (
     decode,
     frame_digest,
 )
-from lampblack.render import Accumulate, Surface
+from lampblack.render import Accumulate, LightPasses, Passes, RenderRequest, Surface
 from lampblack.scene import Scene
 from lampblack.service.handlers import handle
 from lampblack.service.service import Service
@@ -40,14 +40,16 @@ PAUSE = 0.2
 
 class FakeRenderer:
     """White light everywhere, of the brightness ``level``, and half of it on the floor where the
-    character stands. ``jobs`` are all it was asked for; ``before`` sees each first, and may
-    raise."""
+    character stands. ``jobs`` are all it was asked to gather for previews; ``before`` sees each
+    first, and may raise. So does ``before_frame`` with the frames of finals."""
 
     def __init__(self) -> None:
         self.level = 1.0
         self.jobs: list[Accumulate] = []
         self.before: Callable[[Accumulate], None] = lambda job: None
+        self.before_frame: Callable[[RenderRequest], None] = lambda request: None
         self.starts = 0
+        self.killed = False
         self.alive = True
         self.pid = None
 
@@ -63,8 +65,13 @@ class FakeRenderer:
         first = light if job.subject == "character" else light / 2
         return (first, light) if job.resolve else ()
 
+    def render(self, request: RenderRequest) -> Passes:
+        self.before_frame(request)
+        light = LightPasses(*(np.full((1, 1, 3), self.level, np.float32) for _ in range(2)))
+        return Passes((light,) * len(request.lights), light)
+
     def kill(self) -> None:
-        self.alive = False
+        self.alive, self.killed = False, True
 
     def close(self) -> None:
         self.alive = False
@@ -105,11 +112,6 @@ class FakeTransport:
         self.events.append(event)
 
 
-def pipeline_with(predictor: FakePredictor, folder: Path) -> Pipeline:
-    """A pipeline that caches in ``folder``."""
-    return Pipeline(ArrayCache(folder), predictor=predictor)
-
-
 class Stage:
     """A service of fakes, and the hands of its clients.
 
@@ -122,7 +124,7 @@ class Stage:
         self.renderer, self.predictor = FakeRenderer(), FakePredictor()
         self.transport = FakeTransport()
         self.now = 1000.0
-        previews, jobs = (pipeline_with(self.predictor, folder) for _ in range(2))
+        previews, jobs = (Pipeline(ArrayCache(folder), predictor=self.predictor) for _ in range(2))
         self.service = Service(
             self.transport, self.renderer, previews, jobs, clock or (lambda: self.now)
         )

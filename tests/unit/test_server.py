@@ -2,55 +2,21 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
-from pathlib import Path
 
 import pytest
-import zmq
 
 from lampblack.protocol import Bye, ErrorMessage
 from lampblack.scene import default_scene
 from lampblack.service.client import Client
 from lampblack.service.handlers import MAX_CLIENTS
-from lampblack.service.server import Server
-from lampblack.service.service import Service
-from lampblack.service.socket import RouterSocket
 from support.drawings import draw_ball
-from support.preview_fakes import FakePredictor, FakeRenderer, pipeline_with
+from support.served import Served
 
 SIZE = 64
 WHOLE = (0.0, 0.0, float(SIZE), float(SIZE))
-
-
-class Served:
-    """A server in a thread of its own, until ``leave``."""
-
-    def __init__(self, folder: Path) -> None:
-        self.endpoint = f"ipc://{folder / 's'}"
-        self.renderer = FakeRenderer()
-        self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
-        self._socket = RouterSocket(self._context, self.endpoint)
-        previews, jobs = (pipeline_with(FakePredictor(), folder) for _ in range(2))
-        self.service = Service(self._socket, self.renderer, previews, jobs)
-        self._gone = threading.Event()
-        self._thread = threading.Thread(
-            target=Server(self._socket, self.service).run, args=(self._gone.is_set,)
-        )
-        self._thread.start()
-
-    def leave(self) -> None:
-        self._gone.set()
-        self._socket.post(lambda: None)
-        self._thread.join(10)
-        assert not self._thread.is_alive()
-
-    def close(self) -> None:
-        self.leave()
-        self._socket.close()
-        self._context.term()
 
 
 @pytest.fixture
