@@ -78,7 +78,8 @@ plugin:
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache
 
+# All that follows from the Python types of the scene and the messages. The golden vectors then say what
+# changed for both languages.
 schema: environment
-	$(BIN)/python -c "import json; from lampblack.scene import scene_schema; \
-	    print(json.dumps(scene_schema(), indent=2))" > protocol/scene.schema.json
-	$(BIN)/python -m lampblack.protocol.documents protocol
+	$(BIN)/python -m lampblack.protocol.documents
+	$(BIN)/python protocol/make_vectors.py

@@ -68,7 +68,7 @@ void ProjectScene::loadScene(const QString& path)
 
 void ProjectScene::fitToCanvas(const QSize& size)
 {
-    if (mDocument.scene().canvas == size || size.isEmpty())
+    if (sizeOf(mDocument.scene().canvas) == size || size.isEmpty())
         return;
     if (mUntouched && !mDocument.isModified())
         mDocument.reset(defaultScene(size));

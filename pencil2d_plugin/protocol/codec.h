@@ -1,9 +1,10 @@
 // Frames of a ZeroMQ message to a message and its planes, and back (SPEC 3).
 #pragma once
 
-#include "protocol/error_code.h"
-#include "protocol/limits.h"
+#include "protocol/generated/error_code.h"
+#include "protocol/generated/limits.h"
 #include "protocol/messages.h"
+#include "protocol/planes.h"
 
 #include <optional>
 #include <variant>

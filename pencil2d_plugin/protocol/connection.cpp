@@ -1,7 +1,6 @@
 #include "protocol/connection.h"
 
-#include "scene/json_reader.h"
-#include "scene/json_text.h"
+#include "protocol/generated/message_fields.h"
 
 #include <QFile>
 
@@ -14,15 +13,6 @@ constexpr qint64 MaxBytes = 4096;
 constexpr qint64 MaxDepth = 32;
 
 } // namespace
-
-template <class Fields> void describe(Fields& fields, Connection& connection)
-{
-    static const QRegularExpression endpoint(QStringLiteral("^ipc:///[^\\x00-\\x1f\\x7f]+$(?!\\n)"));
-    fields.integer("lampblack", connection.majorVersion, 1, 999);
-    fields.integer("minor", connection.minorVersion, 0, 999);
-    fields.text("endpoint", connection.endpoint, 0, 113, endpoint);
-    fields.integer("pid", connection.pid, 1, 2147483647);
-}
 
 std::optional<Connection> readConnection(const QString& path, QString* fault)
 {

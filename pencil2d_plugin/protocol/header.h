@@ -1,8 +1,8 @@
 // The header frame: strict JSON in and out (SPEC 3.1).
 #pragma once
 
-#include "protocol/error_code.h"
-#include "protocol/limits.h"
+#include "protocol/generated/error_code.h"
+#include "protocol/generated/limits.h"
 #include "protocol/messages.h"
 
 #include <QJsonObject>

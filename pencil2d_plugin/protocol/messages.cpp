@@ -1,6 +1,7 @@
+#include "protocol/generated/message_fields.h"
 #include "protocol/header.h"
-#include "protocol/message_fields.h"
 #include "scene/json_writer.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,34 +10,6 @@ namespace lampblack::protocol
 {
 namespace
 {
-
-struct Type
-{
-    const char* name;
-    bool fromClient;
-    bool fromWorker;
-};
-
-/// In the order of Message's alternatives.
-constexpr std::array<Type, std::variant_size_v<Message>> Types = {{{"hello", true, false},
-                                                                   {"put_frame", true, false},
-                                                                   {"drop_frame", true, false},
-                                                                   {"set_scene", true, false},
-                                                                   {"preview", true, false},
-                                                                   {"view", true, false},
-                                                                   {"get_palette", true, false},
-                                                                   {"render", true, false},
-                                                                   {"cancel", true, false},
-                                                                   {"welcome", false, true},
-                                                                   {"need_frame", false, true},
-                                                                   {"image", false, true},
-                                                                   {"palette", false, true},
-                                                                   {"progress", false, true},
-                                                                   {"frame_done", false, true},
-                                                                   {"done", false, true},
-                                                                   {"status", false, true},
-                                                                   {"error", false, true},
-                                                                   {"bye", true, true}}};
 
 template <std::size_t... Index> Message blank(std::size_t type, std::index_sequence<Index...> /*all*/)
 {
@@ -53,10 +26,10 @@ class MessageReader : public JsonReader
 {
 public:
     using JsonReader::JsonReader;
+    using JsonReader::object;
 
-    ErrorCode code() const { return mCode; }
-
-    void scene(const char* name, Scene& scene)
+    /// A scene has a code of its own, which counts before that of any other field (SPEC 3.4).
+    void object(const char* name, Scene& scene)
     {
         if (!wanted(name, Need::Required))
         {
@@ -65,46 +38,47 @@ public:
         QString why = QStringLiteral("not an object");
         const std::optional<Scene> read =
             at(name).isObject() ? sceneFromJson(at(name).toObject(), &why) : std::nullopt;
-        if (!read)
+        if (read)
         {
-            mCode = fault().isEmpty() ? ErrorCode::BadScene : mCode;
-            refuse(name, QLatin1Char('.') + why);
+            scene = *read;
             return;
         }
-        scene = *read;
+        mSceneFault = HeaderFault{ErrorCode::BadScene, QLatin1String(name) + QLatin1Char('.') + why};
+    }
+
+    std::optional<HeaderFault> headerFault() const
+    {
+        const HeaderFault field = {ErrorCode::BadField, fault()};
+        return mSceneFault || fault().isEmpty() ? mSceneFault : field;
     }
 
 private:
-    ErrorCode mCode = ErrorCode::BadField;
+    std::optional<HeaderFault> mSceneFault;
 };
 
 class MessageWriter : public JsonWriter
 {
 public:
-    void scene(const char* name, const Scene& scene) { put(name, toJson(scene)); }
+    using JsonWriter::object;
+
+    void object(const char* name, Scene& scene) { put(name, toJson(scene)); }
 };
 
 } // namespace
 
-const Patterns& patterns()
-{
-    static const Patterns all;
-    return all;
-}
-
 QString typeOf(const Message& message)
 {
-    return QLatin1String(Types.at(message.index()).name);
+    return QLatin1String(MessageTypes.at(message.index()).name);
 }
 
 std::variant<Message, HeaderFault> readMessage(const QJsonObject& tree, Sender sender)
 {
     const QJsonValue name = tree.value(QLatin1String("type"));
     const auto* type =
-        std::find_if(Types.begin(), Types.end(),
-                     [&name](const Type& known)
+        std::find_if(MessageTypes.begin(), MessageTypes.end(),
+                     [&name](const MessageType& known)
                      { return name.isString() && name.toString() == QLatin1String(known.name); });
-    if (type == Types.end())
+    if (type == MessageTypes.end())
     {
         return HeaderFault{ErrorCode::UnknownType, name.toString().left(40)};
     }
@@ -112,13 +86,13 @@ std::variant<Message, HeaderFault> readMessage(const QJsonObject& tree, Sender s
     {
         return HeaderFault{ErrorCode::WrongDirection, QLatin1String(type->name)};
     }
-    Message message = blank(static_cast<std::size_t>(type - Types.begin()),
+    Message message = blank(static_cast<std::size_t>(type - MessageTypes.begin()),
                             std::make_index_sequence<std::variant_size_v<Message>>());
     MessageReader reader(tree);
     std::visit([&reader](auto& alternative) { describe(reader, alternative); }, message);
-    if (!reader.fault().isEmpty())
+    if (const std::optional<HeaderFault> fault = reader.headerFault())
     {
-        return HeaderFault{reader.code(), reader.fault()};
+        return *fault;
     }
     return message;
 }

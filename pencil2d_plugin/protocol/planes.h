@@ -1,37 +1,13 @@
 // Pixel planes: the raw frames that follow a header (SPEC 3.2), colours in sRGB, rows from the top down.
 #pragma once
 
-#include <QByteArray>
+#include "protocol/generated/messages.h"
+
 #include <QImage>
 #include <QVector>
 
 namespace lampblack::protocol
 {
-
-enum class Role
-{
-    Pixels,
-    Mask,
-    Ink,
-    Picture
-};
-
-enum class Format
-{
-    Rgba8, ///< straight alpha
-    Rgba8Premultiplied,
-    A8
-};
-
-/// What the header says of a plane.
-struct Plane
-{
-    Role role = Role::Pixels;
-    Format format = Format::Rgba8;
-    int width = 1;  ///< pixels
-    int height = 1; ///< pixels
-    int stride = 4; ///< bytes from one row to the next
-};
 
 /// A plane and where its stride * height bytes lie; it owns nothing.
 struct PlaneView

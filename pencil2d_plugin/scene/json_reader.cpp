@@ -51,9 +51,9 @@ void JsonReader::text(const char* name, QString& value, int shortest, int longes
 }
 
 void JsonReader::texts(const char* name, QStringList& values, int most, int longest,
-                       const QRegularExpression& pattern)
+                       const QRegularExpression& pattern, Need need)
 {
-    if (!wanted(name, Need::Optional))
+    if (!wanted(name, need))
     {
         return;
     }

@@ -67,7 +67,7 @@ public:
               Need need = Need::Required);
     void text(const char* name, QString& value, int shortest, int longest, Need need = Need::Required);
     void texts(const char* name, QStringList& values, int most, int longest,
-               const QRegularExpression& pattern);
+               const QRegularExpression& pattern, Need need = Need::Required);
 
     template <class Enum, std::size_t Count>
     void choice(const char* name, Enum& value, const std::array<Choice<Enum>, Count>& choices,
@@ -89,9 +89,10 @@ public:
     }
 
     template <std::size_t Count>
-    void reals(const char* name, std::array<double, Count>& values, double low, double high)
+    void reals(const char* name, std::array<double, Count>& values, double low, double high,
+               Need need = Need::Required)
     {
-        if (!wanted(name, Need::Optional))
+        if (!wanted(name, need))
         {
             return;
         }
@@ -130,7 +131,7 @@ public:
         }
     }
 
-    template <class T> void list(const char* name, QVector<T>& values, int most, Need need)
+    template <class T> void list(const char* name, QVector<T>& values, int most, Need need = Need::Required)
     {
         if (!wanted(name, need))
         {
@@ -156,9 +157,10 @@ public:
     }
 
     template <class T>
-    void map(const char* name, QMap<QString, T>& values, int most, const QRegularExpression& keys)
+    void map(const char* name, QMap<QString, T>& values, int most, const QRegularExpression& keys,
+             Need need = Need::Required)
     {
-        if (!wanted(name, Need::Optional))
+        if (!wanted(name, need))
         {
             return;
         }

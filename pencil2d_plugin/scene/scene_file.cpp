@@ -12,7 +12,6 @@ namespace lampblack
 namespace
 {
 
-constexpr qint64 MaxBytes = 1 << 20;
 constexpr qint64 MaxDepth = 31; // one less than a header, which has to carry the scene
 
 QString tr(const char* text)
@@ -42,10 +41,10 @@ std::variant<Scene, UserError> readSceneFile(const QString& path)
     {
         return unusable(path, file.errorString());
     }
-    const QByteArray text = file.read(MaxBytes + 1);
-    if (text.size() > MaxBytes)
+    const QByteArray text = file.read(MaxJsonBytes + 1);
+    if (text.size() > MaxJsonBytes)
     {
-        return unusable(path, tr("longer than %1 bytes").arg(MaxBytes));
+        return unusable(path, tr("longer than %1 bytes").arg(MaxJsonBytes));
     }
     if (nestingDepth(text) > MaxDepth)
     {
@@ -68,9 +67,9 @@ std::variant<Scene, UserError> readSceneFile(const QString& path)
 std::optional<UserError> writeSceneFile(const QString& path, const Scene& scene)
 {
     const QByteArray text = QJsonDocument(toJson(scene)).toJson(QJsonDocument::Indented);
-    if (text.size() > MaxBytes)
+    if (text.size() > MaxJsonBytes)
     {
-        return unwritable(path, tr("the scene would be longer than %1 bytes").arg(MaxBytes));
+        return unwritable(path, tr("the scene would be longer than %1 bytes").arg(MaxJsonBytes));
     }
     if (QFileInfo::exists(path) && std::holds_alternative<UserError>(readSceneFile(path)) &&
         setAside(path).isEmpty())

@@ -1,5 +1,7 @@
 #include "scene/timeline.h"
 
+#include "scene/generated/scene_keys.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,74 +40,26 @@ QColor mix(const QColor& a, const QColor& b, double share)
             mixChannels(a.blue(), b.blue(), share)};
 }
 
-LightKey mix(const LightKey& a, const LightKey& b, double share)
+/// Whole numbers, words, yes and no hold until the next key.
+template <class Value> Value mix(const Value& a, const Value& /*b*/, double /*share*/)
 {
-    LightKey key = a;
-    for (double LightKey::*number :
-         {&LightKey::x, &LightKey::y, &LightKey::z, &LightKey::size, &LightKey::power})
-        key.*number = mix(a.*number, b.*number, share);
-    key.colour = mix(a.colour, b.colour, share);
-    return key;
-}
-
-FloorKey mix(const FloorKey& a, const FloorKey& b, double share)
-{
-    FloorKey key = a;
-    key.y = mix(a.y, b.y, share);
-    key.pitch = mix(a.pitch, b.pitch, share);
-    return key;
-}
-
-/// What a light has of a key, or a key of a light.
-template <class From, class To> void copyLook(const From& from, To& to)
-{
-    to.x = from.x;
-    to.y = from.y;
-    to.z = from.z;
-    to.size = from.size;
-    to.colour = from.colour;
-    to.power = from.power;
-}
-
-void copy(const LightKey& from, AreaLight& to)
-{
-    copyLook(from, to);
-}
-
-void copy(const AreaLight& from, LightKey& to)
-{
-    copyLook(from, to);
-}
-
-void copy(const FloorKey& from, Floor& to)
-{
-    to.y = from.y;
-    to.pitch = from.pitch;
-}
-
-void copy(const Floor& from, FloorKey& to)
-{
-    to.y = from.y;
-    to.pitch = from.pitch;
-}
-
-double rounded(double value)
-{
-    return std::round(value * 100) / 100;
+    return a;
 }
 
 /// Hundredths are finer than anyone sees, and let a scene full of keys fit into one message.
-void shorten(LightKey& key)
+void shorten(double& value)
 {
-    for (double LightKey::*number :
-         {&LightKey::x, &LightKey::y, &LightKey::z, &LightKey::size, &LightKey::power})
-        key.*number = rounded(key.*number);
+    value = std::round(value * 100) / 100;
 }
 
-void shorten(FloorKey& key)
+template <class Value> void shorten(Value& /*value*/)
 {
-    key.y = rounded(key.y);
-    key.pitch = rounded(key.pitch);
+}
+
+/// What a light or floor has of a key, or a key of these.
+template <class Thing, class From, class To> void copy(const From& from, To& to)
+{
+    Keyed<Thing>::each([](const auto& value, auto& place) { place = value; }, from, to);
 }
 
 template <class Key> QVector<Key> ordered(QVector<Key> keys)
@@ -132,14 +86,15 @@ template <class Thing> Thing thingAt(const Thing& thing, int frame)
     Thing still = thing;
     still.keys.clear();
     if (after == keys.begin())
-        copy(keys.first(), still);
+        copy<Thing>(keys.first(), still);
     else if (after == keys.end())
-        copy(keys.last(), still);
+        copy<Thing>(keys.last(), still);
     else
     {
         const auto before = std::prev(after);
         const double share = double(frame - before->frame) / (after->frame - before->frame);
-        copy(mix(*before, *after, share), still);
+        Keyed<Thing>::each([share](const auto& a, const auto& b, auto& place) { place = mix(a, b, share); },
+                           *before, *after, still);
     }
     return still;
 }
@@ -165,8 +120,8 @@ template <class Thing> Thing keyed(const Thing& thing, int frame, const Thing& s
         at = keys.insert(at, {});
         at->frame = frame;
     }
-    copy(shown, *at);
-    shorten(*at);
+    copy<Thing>(shown, *at);
+    Keyed<Thing>::each([](auto& value) { shorten(value); }, *at);
     return result;
 }
 

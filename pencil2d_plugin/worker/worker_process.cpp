@@ -177,11 +177,11 @@ void WorkerProcess::lookForConnection()
     {
         died(fault);
     }
-    else if (connection->majorVersion != protocol::Major)
+    else if (connection->lampblack != protocol::Major)
     {
         giveUp(versionMismatch(
             QStringLiteral("The worker speaks version %1, the plugin version %2 of the protocol.")
-                .arg(connection->majorVersion)
+                .arg(connection->lampblack)
                 .arg(protocol::Major)));
     }
     else

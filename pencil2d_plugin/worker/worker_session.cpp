@@ -1,6 +1,6 @@
 #include "worker/worker_session.h"
 
-#include "protocol/limits.h"
+#include "protocol/generated/limits.h"
 #include "protocol/planes.h"
 #include "worker/frame_list.h"
 

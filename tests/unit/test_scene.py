@@ -14,9 +14,7 @@ from lampblack.scene import (
     decode_scene,
     default_scene,
     encode_scene,
-    scene_schema,
 )
-from support.paths import ROOT
 
 SCENE = replace(
     default_scene(1000, 800),
@@ -92,8 +90,3 @@ def test_out_of_range_is_refused(path: str, value: object) -> None:
 def test_not_a_scene_is_refused(data: bytes) -> None:
     with pytest.raises(SceneError):
         decode_scene(data)
-
-
-def test_committed_schema_is_the_one_generated() -> None:
-    path = ROOT / "protocol" / "scene.schema.json"
-    assert json.loads(path.read_text()) == json.loads(json.dumps(scene_schema()))

@@ -47,7 +47,7 @@ double roundTo(double value, double step)
 Drag::Drag(const Handle& handle, bool depth, const QPointF& press, const Scene& scene, int frame,
            const Handles& handles, const QTransform& canvasToWidget)
     : mHandle(handle), mKind(kindOf(handle.part, depth)), mGesture(newGesture()), mPress(press),
-      mUnit(scene.defaultHeight()), mToCanvas(canvasToWidget.inverted()), mFrame(frame)
+      mUnit(defaultHeight(scene.canvas)), mToCanvas(canvasToWidget.inverted()), mFrame(frame)
 {
     if (handle.part == HandlePart::Floor)
     {
@@ -167,7 +167,7 @@ Scene turnedByWheel(const Scene& scene, int frame, const Handle& handle, double 
     else if (handle.light >= 0 && handle.light < result.lights.size())
     {
         AreaLight light = lightAt(result.lights[handle.light], frame);
-        light.z += HeightPerNotch * scene.defaultHeight() * steps;
+        light.z += HeightPerNotch * defaultHeight(scene.canvas) * steps;
         result.lights[handle.light] = changedAt(result.lights[handle.light], frame, light);
     }
     return result;

@@ -128,7 +128,7 @@ Handles::Handles(const Scene& scene, int frame, int selected, const QTransform& 
     const QRectF room{QPointF(), QSizeF(view)};
     for (const AreaLight& light : scene.lights)
     {
-        LightShape shape = shapeOf(lightAt(light, frame), scene.defaultHeight(), canvasToWidget, room);
+        LightShape shape = shapeOf(lightAt(light, frame), defaultHeight(scene.canvas), canvasToWidget, room);
         for (const LightKey& key : inOrder(light.keys))
         {
             if (key.frame == frame)
@@ -138,7 +138,7 @@ Handles::Handles(const Scene& scene, int frame, int selected, const QTransform& 
         mLights << shape;
     }
     if (scene.floor)
-        mFloor = shapeOf(floorAt(*scene.floor, frame), scene.canvas.width(), canvasToWidget, room);
+        mFloor = shapeOf(floorAt(*scene.floor, frame), scene.canvas.width, canvasToWidget, room);
 }
 
 Handle Handles::at(const QPointF& position) const

@@ -132,13 +132,13 @@ void LampMenu::fillMaterial(const QString& colour)
     QAction* heading = addAction(colourIcon(QColor(colour), IconSide, devicePixelRatioF()), colour);
     heading->setEnabled(false);
     heading->setObjectName(QStringLiteral("lampblack.menu.colour"));
-    const Material material = mDocument.scene().material(colour);
+    const Material material = materialOf(mDocument.scene(), colour);
     const auto tick = [this, colour](const char* name, const QString& text, bool on, bool Material::*field)
     {
         QAction* action = addEntry(name, text,
                                    [this, colour, on, field]
                                    {
-                                       Material changed = mDocument.scene().material(colour);
+                                       Material changed = materialOf(mDocument.scene(), colour);
                                        changed.*field = !on;
                                        mDocument.edit(tr("Change Material"),
                                                       withMaterial(mDocument.scene(), colour, changed));
@@ -153,7 +153,7 @@ void LampMenu::fillMaterial(const QString& colour)
 
 Scene withLightingReset(Scene scene)
 {
-    const Scene fresh = defaultScene(scene.canvas);
+    const Scene fresh = defaultScene(sizeOf(scene.canvas));
     scene.lights = fresh.lights;
     scene.ambient = fresh.ambient;
     scene.floor = fresh.floor;

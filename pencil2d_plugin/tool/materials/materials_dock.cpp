@@ -115,7 +115,7 @@ void MaterialsDock::refresh()
     if (otherColours() != mOtherColours)
         updateRows();
     for (SwatchRow* each : qAsConst(mRows))
-        each->setMaterial(mDocument.scene().material(each->colour()));
+        each->setMaterial(materialOf(mDocument.scene(), each->colour()));
 }
 
 QVector<QString> MaterialsDock::otherColours() const
@@ -160,7 +160,7 @@ SwatchRow* MaterialsDock::rowFor(const QString& colour)
     if (found == nullptr)
     {
         found = new SwatchRow(colour, mColumnWidth, mScroll->widget());
-        found->setMaterial(mDocument.scene().material(colour));
+        found->setMaterial(materialOf(mDocument.scene(), colour));
         found->setHighlighted(colour == mHighlighted);
         connect(found, &SwatchRow::edited, this,
                 [this](const QString& edited, const Material& material, int gesture) {

@@ -17,7 +17,7 @@ constexpr double Far = 1e5;
 Floor firstFloor(const Scene& scene)
 {
     Floor floor;
-    floor.y = 0.9 * scene.canvas.height();
+    floor.y = 0.9 * scene.canvas.height;
     return floor;
 }
 
@@ -143,7 +143,7 @@ void FloorSection::refresh()
     mOn->setChecked(scene.floor.has_value());
     mPosition->setEnabled(scene.floor.has_value());
     mPitch->setEnabled(scene.floor.has_value());
-    mPosition->setScale({-Far, Far, double(scene.canvas.height()), 0, false, 0});
+    mPosition->setScale({-Far, Far, double(scene.canvas.height), 0, false, 0});
     mKeys->setEnabled(scene.floor.has_value());
     mKeys->setKeys(scene.floor ? keyFrames(*scene.floor) : QVector<int>());
     const Floor floor = floorAt(scene.floor.value_or(firstFloor(scene)), mHost.currentFrame());

@@ -74,7 +74,7 @@ LightsSection::LightsSection(Host& host, SceneDocument& document, QWidget* paren
     auto* numbers = new QVBoxLayout(mNumbers);
     numbers->setContentsMargins(0, 0, 0, 0);
     numbers->setSpacing(3);
-    const double unit = mDocument.scene().defaultHeight();
+    const double unit = defaultHeight(mDocument.scene().canvas);
     auto* colourRow = new QHBoxLayout;
     mColour = new ColourButton(QStringLiteral("lampblack.panel.colour"), tr("Colour of the light"), mNumbers);
     auto* colourLabel = new QLabel(tr("Colour"), mNumbers);
@@ -149,8 +149,8 @@ void LightsSection::refresh()
         return;
     const AreaLight& light = scene.lights[selected];
     mColour->setColour(light.colour);
-    mSize->setScale(sizeScale(scene.defaultHeight()));
-    mHeight->setScale(heightScale(scene.defaultHeight()));
+    mSize->setScale(sizeScale(defaultHeight(scene.canvas)));
+    mHeight->setScale(heightScale(defaultHeight(scene.canvas)));
     mPower->setValue(light.power);
     mSize->setValue(light.size);
     mHeight->setValue(light.z);
@@ -164,8 +164,8 @@ void LightsSection::addLight()
         return;
     // Each light starts at another corner, so that none hides another.
     const int corner = scene.lights.size();
-    const double x = scene.canvas.width() * (corner % 2 ? 0.75 : 0.25);
-    const double y = scene.canvas.height() * (corner / 2 ? 0.75 : 0.2);
+    const double x = scene.canvas.width * (corner % 2 ? 0.75 : 0.25);
+    const double y = scene.canvas.height * (corner / 2 ? 0.75 : 0.2);
     scene.lights << defaultLight(scene.canvas, x, y);
     mDocument.edit(tr("Add Light"), scene);
     mDocument.selectLight(mDocument.scene().lights.size() - 1);

@@ -152,7 +152,7 @@ void SceneJson::clampedIsReadable()
     QCOMPARE(tame.lights[0].x, -1e5);
     QCOMPARE(tame.lights[2].power, 100.0);
     QCOMPARE(tame.lights[3].size, 1.0);
-    QCOMPARE(tame.canvas, QSize(65536, 1));
+    QCOMPARE(sizeOf(tame.canvas), QSize(65536, 1));
     QCOMPARE(tame.materials.keys(), QStringList(QStringLiteral("#00ff00")));
     QCOMPARE(tame.floor->pitch, 85.0);
     QVERIFY(sceneFromJson(toJson(tame)) == std::optional<Scene>(tame));

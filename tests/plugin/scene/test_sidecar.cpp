@@ -148,8 +148,8 @@ void SceneSidecar::materialsOfOtherColoursAreKept()
     QVERIFY(document.save(mProject));
     SceneDocument again;
     QVERIFY(again.load(mProject));
-    QVERIFY(again.scene().material(QStringLiteral("#010203")).glossy);
-    QVERIFY(!again.scene().material(QStringLiteral("#040506")).glossy);
+    QVERIFY(materialOf(again.scene(), QStringLiteral("#010203")).glossy);
+    QVERIFY(!materialOf(again.scene(), QStringLiteral("#040506")).glossy);
 }
 
 void SceneSidecar::unwritableIsToldOf()

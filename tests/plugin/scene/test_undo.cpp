@@ -178,7 +178,7 @@ void SceneUndo::resetForgets()
     QCOMPARE(changes.count(), 1);
     QCOMPARE(document.undoStack()->count(), 0);
     QVERIFY(!document.isModified());
-    QCOMPARE(document.scene().canvas, QSize(64, 48));
+    QCOMPARE(sizeOf(document.scene().canvas), QSize(64, 48));
 }
 
 QTEST_GUILESS_MAIN(SceneUndo)

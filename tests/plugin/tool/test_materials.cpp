@@ -49,13 +49,13 @@ private Q_SLOTS:
         MaterialsDock dock(mDocument);
         dock.setPalette({{Red, 100}, {Blue, 50}});
         box(dock, "glossy", Red)->click();
-        QVERIFY(mDocument.scene().material(Red).glossy);
-        QVERIFY(!mDocument.scene().material(Blue).glossy);
+        QVERIFY(materialOf(mDocument.scene(), Red).glossy);
+        QVERIFY(!materialOf(mDocument.scene(), Blue).glossy);
         QCOMPARE(mDocument.undoStack()->count(), 1);
         mDocument.undoStack()->undo();
         QVERIFY(!box(dock, "glossy", Red)->isChecked());
         box(dock, "diffuse", Blue)->click();
-        QVERIFY(!mDocument.scene().material(Blue).diffuse);
+        QVERIFY(!materialOf(mDocument.scene(), Blue).diffuse);
     }
 
     void glossHasSlidersOnceItIsThere()
@@ -71,7 +71,7 @@ private Q_SLOTS:
         gloss->setSliderPosition(800);
         gloss->setSliderPosition(900);
         gloss->setSliderDown(false);
-        QCOMPARE(mDocument.scene().material(Red).gloss, 0.9);
+        QCOMPARE(materialOf(mDocument.scene(), Red).gloss, 0.9);
         QCOMPARE(mDocument.undoStack()->count(), 2);
         box(dock, "glossy", Red)->click();
         QVERIFY(!gloss->isVisibleTo(&dock));
@@ -83,7 +83,7 @@ private Q_SLOTS:
         dock.setPalette({{Red, 100}});
         box(dock, "glossy", Red)->click();
         dock.setPalette({{Blue, 100}});
-        QVERIFY(mDocument.scene().material(Red).glossy);
+        QVERIFY(materialOf(mDocument.scene(), Red).glossy);
         QVERIFY(box(dock, "glossy", Red) != nullptr);
         auto* otherSection = dock.findChild<Section*>();
         QVERIFY(otherSection->isVisibleTo(&dock) && !otherSection->isOpen());

@@ -89,10 +89,10 @@ private Q_SLOTS:
     void changesTheMaterialUnderThePointer()
     {
         choose("glossy", Red);
-        QVERIFY(mDocument.scene().material(Red).glossy);
-        QVERIFY(mDocument.scene().material(Red).diffuse);
+        QVERIFY(materialOf(mDocument.scene(), Red).glossy);
+        QVERIFY(materialOf(mDocument.scene(), Red).diffuse);
         choose("diffuse", Red);
-        QVERIFY(!mDocument.scene().material(Red).diffuse);
+        QVERIFY(!materialOf(mDocument.scene(), Red).diffuse);
         choose("diffuse", Red);
         choose("glossy", Red);
         QVERIFY2(mDocument.scene().materials.isEmpty(), "a default material need not be listed");
@@ -106,7 +106,7 @@ private Q_SLOTS:
         choose("reset");
         QCOMPARE(mDocument.scene().lights, defaultScene(QSize(400, 300)).lights);
         QVERIFY(!mDocument.scene().floor);
-        QVERIFY(mDocument.scene().material(Red).glossy);
+        QVERIFY(materialOf(mDocument.scene(), Red).glossy);
         mDocument.undoStack()->undo();
         QCOMPARE(mDocument.scene().lights.size(), 2);
     }

@@ -169,8 +169,8 @@ private Q_SLOTS:
         mDocument->edit(QString(), scene);
         find<QDoubleSpinBox>("roughness.field")->setValue(0.5);
         QCOMPARE(mDocument->scene().defaultMaterial.roughness, 0.5);
-        QCOMPARE(mDocument->scene().material(QStringLiteral("#111111")).roughness, 0.5);
-        QCOMPARE(mDocument->scene().material(QStringLiteral("#222222")).roughness, 0.8);
+        QCOMPARE(materialOf(mDocument->scene(), QStringLiteral("#111111")).roughness, 0.5);
+        QCOMPARE(materialOf(mDocument->scene(), QStringLiteral("#222222")).roughness, 0.8);
     }
 
     void layersHaveRoles()

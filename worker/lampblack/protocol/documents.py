@@ -1,12 +1,11 @@
-"""What is generated from the types: schemas, the error catalogue, the tables of SPEC.md.
+"""What is generated from the types: schemas, the error catalogue, the tables of SPEC.md, and C++.
 
-Run as ``python -m lampblack.protocol.documents FOLDER``.
+Run as ``python -m lampblack.protocol.documents`` in a checkout.
 """
 
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 import msgspec
 
 from ..scene import normalize_schema, scene_schema
+from . import cpp
 from .connection import Connection
 from .errors import CATALOGUE
 from .messages import BY_SENDER, MESSAGES
@@ -173,17 +173,27 @@ def with_tables(spec: str) -> str:
     return spec
 
 
-def documents(folder: Path) -> dict[Path, str]:
-    """Every generated file of the protocol folder and what belongs into it."""
+def documents(root: Path) -> dict[Path, str]:
+    """Every generated file of the checkout at ``root``, and what belongs into it."""
+    folder = root / "protocol"
     spec = folder / "SPEC.md"
+    schemas = {
+        "scene": scene_schema(),
+        "messages": message_schema(),
+        "connection": connection_schema(),
+    }
     return {
-        folder / "messages.schema.json": json.dumps(message_schema(), indent=2) + "\n",
-        folder / "connection.schema.json": json.dumps(connection_schema(), indent=2) + "\n",
+        **{
+            folder / f"{name}.schema.json": json.dumps(schema, indent=2) + "\n"
+            for name, schema in schemas.items()
+        },
         folder / "ERRORS.md": error_catalogue(),
         spec: with_tables(spec.read_text(encoding="utf-8")),
+        **cpp.sources(root),
     }
 
 
 if __name__ == "__main__":
-    for path, text in documents(Path(sys.argv[1])).items():
+    for path, text in documents(Path(__file__).parents[3]).items():
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")

@@ -1,0 +1,19 @@
+"""The plugin's half of the types: the C++ that mirrors the scene and the messages."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from . import messages, scene
+from .text import formatted
+
+FOLDER = Path("pencil2d_plugin")
+
+
+def sources(root: Path) -> dict[Path, str]:
+    """Every generated C++ file of the tree at ``root``, and what belongs into it."""
+    written = {**scene.files(), **messages.files()}
+    return {
+        path: formatted(text, path)
+        for path, text in ((root / FOLDER / name, text) for name, text in written.items())
+    }
