@@ -164,7 +164,7 @@ struct Render
     QString frames = {}; ///< ranges with optional steps, such as 1-20x2,25; at most 100,000 frames
     QString output = {}; ///< absolute, the frame number as %04d, such as /shots/a_v001.%04d.png
     Quality quality = Quality::Final;
-    bool keepFinished = false; ///< leave frames whose file is already there and whole
+    bool keepFinished = false; ///< leave frames whose file is there, whole and up to date
 };
 
 /// Stop a look or a job. A job answers done; unknown and ended requests are let be.

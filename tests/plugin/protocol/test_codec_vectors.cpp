@@ -1,5 +1,6 @@
 // The decoder's verdicts on the golden vectors, and that the encoder writes what the decoder reads.
 #include "protocol/header.h"
+#include "scene/scene.h"
 #include "vectors.h"
 
 #include <QDir>
