@@ -78,8 +78,8 @@ plugin:
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache
 
-# All that follows from the Python types of the scene and the messages. The golden vectors then say what
-# changed for both languages.
+# Generates all that follows from the Python types of the scene and the messages. The vectors come first:
+# the specification shows some of them as examples.
 schema: environment
-	$(BIN)/python -m lampblack.protocol.documents
 	$(BIN)/python protocol/make_vectors.py
+	$(BIN)/python -m lampblack.protocol.documents

@@ -80,7 +80,7 @@ def _field(hint: Any, default: Any) -> Any:
 def test_a_scene_field_is_one_line_of_python(tmp_path: Path) -> None:
     """The example of CONTRIBUTING.md: every generated file that knows scenes has the new field."""
     for folder in ("worker/lampblack", "protocol"):
-        keep = shutil.ignore_patterns("weights", "vectors", "__pycache__")
+        keep = shutil.ignore_patterns("weights", "__pycache__")
         shutil.copytree(ROOT / folder, tmp_path / folder, ignore=keep)
     shutil.copy(ROOT / ".clang-format", tmp_path)
     scene = tmp_path / "worker" / "lampblack" / "scene.py"

@@ -63,59 +63,59 @@ enum class Sender
     Worker
 };
 
-/// Written by the worker when it is ready to be talked to, readable by its user only.
+/// Written by the worker when it is ready for clients; readable by its user only.
 struct Connection
 {
     int lampblack = 1;     ///< major version of the protocol, 1 to 999
     int minor = 0;         ///< minor version of the protocol, 0 to 999
-    QString endpoint = {}; ///< for zmq_connect; the socket's path has at most 107 bytes
-    int pid = 1;           ///< process of the worker, 1 to 2147483647
+    QString endpoint = {}; ///< address for zmq_connect; the socket's path has at most 107 bytes
+    int pid = 1;           ///< process ID of the worker, 1 to 2147483647
 };
 
-/// The first message of a client; sent again, it starts its session afresh.
+/// The first message of a client. Another one starts a new session.
 struct Hello
 {
     int minor = 0;                 ///< minor version of the protocol, 0 to 999
     QString client = {};           ///< name of the program, for people
-    QString clientVersion = {};    ///< for people
-    QStringList capabilities = {}; ///< optional things the sender can do
+    QString clientVersion = {};    ///< version of the program, for people
+    QStringList capabilities = {}; ///< optional features of the sender
 };
 
 /// One raw frame: `height` rows of `stride` bytes, the top row first.
 ///
 /// Of each row the first `width` times 1 (a8) or 4 (R, G, B, A) bytes are pixels; what follows up to `stride`
-/// is padding and means nothing.
+/// is padding and is ignored.
 struct Plane
 {
-    Role role = Role::Pixels;      ///< what it shows
-    Format format = Format::Rgba8; ///< bytes of a pixel, in sRGB
+    Role role = Role::Pixels;      ///< content of the plane
+    Format format = Format::Rgba8; ///< bytes of a pixel, sRGB
     int width = 1;                 ///< 1 to 2147483647
     int height = 1;                ///< 1 to 2147483647
-    int stride = 1;                ///< from one row to the next row, 1 to 2147483647
+    int stride = 1;                ///< from one row to the next, 1 to 2147483647
 };
 
-/// Frame `frame` shows the drawing `digest`; its planes come along or were sent before.
+/// Frame `frame` shows the drawing `digest`; its planes follow or were sent before.
 ///
 /// Without planes the worker answers need_frame if it does not hold the drawing. Planes: `pixels` (rgba8),
 /// then optionally `mask` and `ink` (a8), all of one size.
 struct PutFrame
 {
-    int frame = 0;                    ///< frame of the animation, as the drawing program counts, 0 to 999999
+    int frame = 0;                    ///< frame of the animation, in the drawing program's count, 0 to 999999
     QByteArray digest = {};           ///< BLAKE2b-160 of a frame's planes
-    QTransform camera = QTransform(); ///< canvas to view, 2 x 3, row by row
-    QVector<Plane> planes = {};       ///< of the frames that follow, in order, 3 at most
+    QTransform camera = QTransform(); ///< affine map from canvas to view, 2 x 3, row by row
+    QVector<Plane> planes = {};       ///< the planes that follow, in order, 3 at most
 };
 
 /// The frame is no longer part of the animation.
 struct DropFrame
 {
-    int frame = 0; ///< frame of the animation, as the drawing program counts, 0 to 999999
+    int frame = 0; ///< frame of the animation, in the drawing program's count, 0 to 999999
 };
 
-/// Replace the scene. Fields of the scene that the worker does not know are kept.
+/// Replace the scene. The worker keeps fields of the scene that it does not know.
 struct SetScene
 {
-    quint64 revision = 1; ///< of the scene, each above the last
+    quint64 revision = 1; ///< revision of the scene; rises
     Scene scene = {};     ///< the whole scene, see scene.schema.json
 };
 
@@ -128,21 +128,21 @@ struct Crop
     double height = 0.01; ///< 0.01 to 100000
 };
 
-/// Look at a frame, lit: images follow until this look is replaced or cancelled.
+/// Set the viewport to a lit frame. Images follow until it is replaced or cancelled.
 struct Preview
 {
-    quint64 request = 1; ///< chosen by the client, each above the last
-    int frame = 0;       ///< frame of the animation, as the drawing program counts, 0 to 999999
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
     QRectF crop = {};    ///< the part of the frame that is in sight
     int width = 1;       ///< wanted, device pixels, 1 to 4096
     int height = 1;      ///< wanted, device pixels, 1 to 4096
 };
 
-/// Look at a frame's normals or relief instead; one look holds at a time.
+/// Set the viewport to a frame's normals or relief. A client has one viewport.
 struct View
 {
-    quint64 request = 1;       ///< chosen by the client, each above the last
-    int frame = 0;             ///< frame of the animation, as the drawing program counts, 0 to 999999
+    quint64 request = 1;       ///< number of the request, chosen by the client; rises
+    int frame = 0;             ///< frame of the animation, in the drawing program's count, 0 to 999999
     Show show = Show::Normals; ///< normals: colour is (n + 1) / 2, x right, y up, z to the viewer; relief:
                                ///< grey, nearer is brighter
     QRectF crop = {};          ///< the part of the frame that is in sight
@@ -150,70 +150,70 @@ struct View
     int height = 1;            ///< wanted, device pixels, 1 to 4096
 };
 
-/// Ask for the flat colours of a frame; answered by palette.
+/// Request the flat colours of a frame; answered by palette.
 struct GetPalette
 {
-    quint64 request = 1; ///< chosen by the client, each above the last
-    int frame = 0;       ///< frame of the animation, as the drawing program counts, 0 to 999999
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
 };
 
-/// Light frames into files, under the scene as it is now, whatever changes later.
+/// Render frames into files, with the scene of this moment.
 struct Render
 {
-    quint64 request = 1; ///< chosen by the client, each above the last
-    QString frames = {}; ///< ranges with optional steps, such as 1-20x2,25; at most 100,000 frames
-    QString output = {}; ///< absolute, the frame number as %04d, such as /shots/a_v001.%04d.png
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    QString frames = {}; ///< ranges with optional steps: 1-20x2,25; at most 100,000 frames
+    QString output = {}; ///< absolute path with the frame number as %04d: /shots/a_v001.%04d.png
     Quality quality = Quality::Final;
-    bool keepFinished = false; ///< leave frames whose file is there, whole and up to date
+    bool keepFinished = false; ///< keep files that are up to date
 };
 
-/// Stop a look or a job. A job answers done; unknown and ended requests are let be.
+/// End the viewport or a job. A job answers done; unknown and ended requests are ignored.
 struct Cancel
 {
-    quint64 request = 1; ///< of the preview, view or render to stop
+    quint64 request = 1; ///< number of the preview, view or render to stop
 };
 
-/// The sender leaves; nothing of it follows, and what it asked for is let go.
+/// The sender leaves. It sends nothing more, and its requests are dropped.
 struct Bye
 {
-    QString reason = {}; ///< for people
+    QString reason = {}; ///< reason, for people
 };
 
-/// The answer to hello. Both sides then speak the lower of the two minors.
+/// The answer to hello. Both sides then use the lower of the two minor versions.
 struct Welcome
 {
     int minor = 0;                 ///< minor version of the protocol, 0 to 999
-    QString session = {};          ///< another one than before: the worker holds nothing of this client
-    QString workerVersion = {};    ///< of the package, for people
-    QStringList capabilities = {}; ///< optional things the sender can do
-    int statusMs = 1000;           ///< between two ticks, 100 to 10000
+    QString session = {};          ///< if it differs from before, the worker holds nothing of this client
+    QString workerVersion = {};    ///< version of the package, for people
+    QStringList capabilities = {}; ///< optional features of the sender
+    int statusMs = 1000;           ///< time between two status messages, 100 to 10000
 };
 
-/// The worker does not hold a drawing that was announced; answered by put_frame.
+/// The worker needs an announced drawing that it does not hold; answered by put_frame.
 struct NeedFrame
 {
-    int frame = 0;          ///< frame of the animation, as the drawing program counts, 0 to 999999
+    int frame = 0;          ///< frame of the animation, in the drawing program's count, 0 to 999999
     QByteArray digest = {}; ///< BLAKE2b-160 of a frame's planes
 };
 
-/// A picture of a look. It replaces the drawing, ink included, in the whole of its crop.
+/// A picture for the viewport. It replaces the drawing and its ink in the whole crop.
 ///
 /// One plane: `picture` (rgba8_premultiplied), at most of the wanted size.
 struct Image
 {
-    quint64 request = 1;    ///< chosen by the client, each above the last
-    int frame = 0;          ///< frame of the animation, as the drawing program counts, 0 to 999999
-    QByteArray digest = {}; ///< of the drawing that is shown
-    quint64 revision = 0;   ///< of the scene that is shown; 0: none was set
+    quint64 request = 1;    ///< number of the request, chosen by the client; rises
+    int frame = 0;          ///< frame of the animation, in the drawing program's count, 0 to 999999
+    QByteArray digest = {}; ///< digest of the drawing that is shown
+    quint64 revision = 0;   ///< revision of the scene that is shown; 0: no scene was set
     Show show = Show::Lit;
-    quint64 pass = 0;           ///< rises from 0 while request, digest and revision stay
+    quint64 pass = 0;           ///< rises from 0 while request, digest and revision are the same
     quint64 spp = 0;            ///< samples per pixel so far
-    bool converged = false;     ///< nothing better follows until something changes
+    bool converged = false;     ///< no finer image follows until something changes
     QRectF crop = {};           ///< the part of the frame that is shown
-    QVector<Plane> planes = {}; ///< of the frame that follows, 1 at most
+    QVector<Plane> planes = {}; ///< the plane that follows, 1 at most
 };
 
-/// One flat colour and how many pixels of the fill wear it.
+/// One flat colour and its number of pixels in the fill.
 struct Swatch
 {
     QString colour = {}; ///< sRGB, lower case #rrggbb
@@ -223,63 +223,63 @@ struct Swatch
 /// The flat colours of a frame, most used first: the keys of the scene's materials.
 struct Palette
 {
-    quint64 request = 1;           ///< chosen by the client, each above the last
-    int frame = 0;                 ///< frame of the animation, as the drawing program counts, 0 to 999999
+    quint64 request = 1;           ///< number of the request, chosen by the client; rises
+    int frame = 0;                 ///< frame of the animation, in the drawing program's count, 0 to 999999
     QByteArray digest = {};        ///< BLAKE2b-160 of a frame's planes
     QVector<Swatch> swatches = {}; ///< 256 at most
 };
 
-/// How far a job is.
+/// The progress of a job.
 struct Progress
 {
-    quint64 request = 1; ///< chosen by the client, each above the last
-    int frame = 0;       ///< the frame being made, 0 to 999999
-    double share = 0;    ///< of that frame, done, 0 to 1
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< the frame that is being rendered, 0 to 999999
+    double share = 0;    ///< share of that frame that is done, 0 to 1
     quint64 framesDone = 0;
     quint64 framesTotal = 0;
 };
 
-/// A frame's file is there, whole.
+/// The file of a frame is complete.
 struct FrameDone
 {
-    quint64 request = 1; ///< chosen by the client, each above the last
-    int frame = 0;       ///< frame of the animation, as the drawing program counts, 0 to 999999
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
     QString path = {};   ///< the file
-    bool kept = false;   ///< it was there before
+    bool kept = false;   ///< the file existed before the job
 };
 
-/// The end of a job; nothing of it follows.
+/// The end of a job; no message about it follows.
 struct Done
 {
-    quint64 request = 1; ///< chosen by the client, each above the last
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
     Outcome outcome = Outcome::Finished;
     quint64 framesDone = 0;
     quint64 framesTotal = 0;
-    quint64 framesFailed = 0; ///< each was told of by an error
+    quint64 framesFailed = 0; ///< an error was sent for each
 };
 
-/// The worker's tick: three missed ones mean that it is gone.
+/// Sent regularly: if a client misses three, the worker has ended.
 struct Status
 {
-    quint64 uptimeMs = 0;                 ///< since the worker started
-    quint64 revision = 0;                 ///< of the scene it holds; 0 before the first
-    ChildState preview = ChildState::Off; ///< the renderer of previews
-    ChildState job = ChildState::Off;     ///< the renderer of jobs
-    quint64 jobsWaiting = 0;              ///< render jobs not yet begun
+    quint64 uptimeMs = 0;                 ///< time since the worker started
+    quint64 revision = 0;                 ///< revision of the scene it holds; 0 before the first
+    ChildState preview = ChildState::Off; ///< state of the renderer of previews
+    ChildState job = ChildState::Off;     ///< state of the renderer of jobs
+    quint64 jobsWaiting = 0;              ///< render jobs that have not begun
     quint64 framesHeld = 0;               ///< frames whose drawing it holds
-    quint64 framesLit = 0;                ///< of these, frames lit at low quality under this scene
-    quint64 memoryBytes = 0;              ///< resident, its children included
+    quint64 framesLit = 0;                ///< of these, frames lit at low quality with this scene
+    quint64 memoryBytes = 0;              ///< resident memory, including child processes
 };
 
-/// Something went wrong; unless it is fatal, the session goes on.
+/// An error. The session continues unless it is fatal.
 struct Error
 {
-    QString code = {};                   ///< stable, see ERRORS.md; an unknown one is shown like any other
-    QString what = {};                   ///< what happened, a sentence for people
-    QString remedy = {};                 ///< what to do, a sentence for people
-    QString details = {};                ///< worth copying into a report
-    bool fatal = false;                  ///< the session is over
-    QString about = {};                  ///< type of the message it answers, if it answers one
+    QString code = {};    ///< stable code, see ERRORS.md; an unknown one is shown like any other
+    QString what = {};    ///< what happened, one sentence for people
+    QString remedy = {};  ///< what to do, one sentence for people
+    QString details = {}; ///< text to copy into a report
+    bool fatal = false;   ///< the session is over
+    QString about = {};   ///< type of the message that it answers, if any
     std::optional<quint64> request = {}; ///< the request it concerns
     std::optional<int> frame = {};       ///< the frame it concerns, 0 to 999999
 };

@@ -1,4 +1,4 @@
-"""What a message must satisfy, one function a rule; ``codec`` calls them in this order.
+"""The rules for a message, one function each; ``codec`` calls them in this order.
 
 Each raises ``ProtocolError`` with the code of its rule, and each has a vector that only it
 refuses (``protocol/vectors/reject``).
@@ -43,20 +43,20 @@ def frame_count(frames: Sequence[bytes | memoryview], limits: Limits) -> None:
 
 
 def header_size(header: memoryview, limits: Limits) -> None:
-    """The header is short."""
+    """The header is not too long."""
     if header.nbytes > limits.header_bytes:
         raise ProtocolError(ErrorCode.HEADER_TOO_LARGE, f"{header.nbytes} bytes")
 
 
 def plane_bytes(payloads: Sequence[memoryview], limits: Limits) -> None:
-    """No plane is longer than any message could make use of."""
+    """No plane is too long."""
     for payload in payloads:
         if payload.nbytes > limits.plane_bytes:
             raise ProtocolError(ErrorCode.PLANE_TOO_LARGE, f"{payload.nbytes} bytes")
 
 
 def magic(header: bytes) -> None:
-    """The header begins as ours do, byte for byte."""
+    """The header begins with the bytes of every Lampblack header."""
     if not header.startswith(MAGIC):
         raise ProtocolError(ErrorCode.NOT_LAMPBLACK, repr(header[: len(MAGIC)]))
 
@@ -69,7 +69,7 @@ def version(header: bytes) -> None:
 
 
 def depth(header: bytes, limits: Limits) -> None:
-    """Brackets outside strings nest no deeper than a parser can bear, well-formed or not."""
+    """Brackets outside strings are not nested too deep for a parser, even if malformed."""
     level = 0
     for match in _BRACKET_OR_STRING.finditer(header):
         token = match[0]
@@ -79,7 +79,7 @@ def depth(header: bytes, limits: Limits) -> None:
 
 
 def numbers(value: Any, path: str = "$") -> None:
-    """Every number is one that a double and a 64-bit integer hold alike."""
+    """Every number has the same value as a double and as a 64-bit integer."""
     if isinstance(value, dict):
         for key, item in value.items():
             numbers(item, f"{path}.{key[:40]}")
@@ -98,13 +98,13 @@ def known_type(tree: dict[str, Any]) -> None:
 
 
 def direction(name: str, sender: Sender) -> None:
-    """The sender is one who sends such messages."""
+    """The sender may send this type."""
     if name not in BY_SENDER[sender]:
         raise ProtocolError(ErrorCode.WRONG_DIRECTION, f"{name} from the {sender}")
 
 
 def camera_inverts(message: Message) -> None:
-    """The camera matrix is not degenerate: what is seen can be traced back to the canvas."""
+    """The camera matrix can be inverted."""
     if isinstance(message, PutFrame):
         a, b, _, c, d, _ = message.camera
         if abs(a * d - b * c) < 1e-6:
@@ -121,7 +121,7 @@ def frame_list(message: Message) -> None:
 
 
 def plane_count(planes: Sequence[Plane], payloads: Sequence[memoryview]) -> None:
-    """As many planes came as were announced."""
+    """The number of planes is the announced one."""
     if len(planes) != len(payloads):
         raise ProtocolError(
             ErrorCode.BAD_PLANE_COUNT, f"{len(planes)} announced, {len(payloads)} came"
@@ -136,14 +136,14 @@ def plane_roles(message: Message, planes: Sequence[Plane]) -> None:
 
 
 def plane_formats(planes: Sequence[Plane]) -> None:
-    """Each role has its one format."""
+    """Each role has its format."""
     for plane in planes:
         if plane.format != FORMAT_OF[plane.role]:
             raise ProtocolError(ErrorCode.BAD_PLANE, f"{plane.role} as {plane.format}")
 
 
 def plane_extent(planes: Sequence[Plane], limits: Limits) -> None:
-    """No side and no area is larger than drawings may be."""
+    """No side and no area exceeds that of drawings."""
     for plane in planes:
         width, height = plane.width, plane.height
         if max(width, height) > limits.side or width * height > limits.pixels:
@@ -160,13 +160,13 @@ def plane_stride(planes: Sequence[Plane]) -> None:
 
 
 def planes_alike(planes: Sequence[Plane]) -> None:
-    """The planes of one frame are of one size."""
+    """The planes of a frame have the same size."""
     if len({(plane.width, plane.height) for plane in planes}) > 1:
         raise ProtocolError(ErrorCode.BAD_PLANE, "planes of several sizes")
 
 
 def plane_payload(planes: Sequence[Plane], payloads: Sequence[memoryview]) -> None:
-    """Each plane is exactly stride times height bytes long, counted in 64 bits."""
+    """Each plane has exactly stride times height bytes, computed in 64 bits."""
     for plane, payload in zip(planes, payloads, strict=False):
         if payload.nbytes != plane.stride * plane.height:
             raise ProtocolError(
@@ -176,7 +176,7 @@ def plane_payload(planes: Sequence[Plane], payloads: Sequence[memoryview]) -> No
 
 
 def digest(message: Message, pixels: dict[Role, Pixels]) -> None:
-    """Pixels that come with a digest have it."""
+    """The digest is that of the planes."""
     if isinstance(message, PutFrame) and pixels:
         found = frame_digest(pixels)
         if found != message.digest:

@@ -1,4 +1,4 @@
-"""Frames of a ZeroMQ message to a message and its planes, and back."""
+"""Decoding and encoding: ZeroMQ frames to a message with planes, and back."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Received(NamedTuple):
 def decode(
     frames: Sequence[bytes | memoryview], sender: Sender, limits: Limits = LIMITS
 ) -> Received:
-    """Read one multipart message; nothing is parsed before its size is known to be sound.
+    """Decode one multipart message. Its size is checked before anything is parsed.
 
     Args:
         frames: the message's frames, without any routing identity; not copied, so they must
@@ -87,7 +87,7 @@ def _read(
 
 
 def _identity(tree: dict[str, Any]) -> tuple[str, int | None]:
-    """The type and the request number of a message that is refused, if it gave usable ones."""
+    """The type and the request number of a refused message, as far as they are usable."""
     name, request = tree.get("type"), tree.get("request")
     usable = type(request) is int and 1 <= request <= MAX_NUMBER
     return name[:40] if isinstance(name, str) else "", request if usable else None

@@ -1,4 +1,4 @@
-"""What a decoder made of a message, in the form in which implementations are compared."""
+"""The result of a decoder, in the form in which implementations are compared."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The name of a frame's content, computed alike by both sides."""
+"""The digest of a drawing, computed in the same way by both sides."""
 
 from __future__ import annotations
 

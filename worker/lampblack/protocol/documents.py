@@ -76,8 +76,8 @@ def error_catalogue() -> str:
     return "\n".join(lines) + "\n"
 
 
-def message_tables() -> str:
-    """Every message as a table: field, type, unit, range, since."""
+def message_tables(vectors: Path) -> str:
+    """Every message as a table (field, type, unit, range, since), with an example."""
     schema = message_schema()["$defs"]
     parts = []
     for sender, kinds in BY_SENDER.items():
@@ -85,6 +85,8 @@ def message_tables() -> str:
         for name, kind in kinds.items():
             parts.append(f"#### `{name}`\n")
             parts.append("\n".join(_table(schema[kind.__name__])))
+            example = vectors / "accept" / f"{name}-from-{sender}" / "header.json"
+            parts.append(f"```json\n{example.read_text(encoding='utf-8')}\n```\n")
     parts.append("### Objects within messages\n")
     for name in ("Crop", "Plane", "Swatch"):
         parts.append(f"#### {name}\n")
@@ -164,9 +166,9 @@ def _plain(number: float) -> str:
     return f"{int(number):,}" if number == int(number) else str(number)
 
 
-def with_tables(spec: str) -> str:
-    """The text of SPEC.md with its generated parts written anew."""
-    for name, text in (("messages", message_tables()), ("connection", connection_table())):
+def with_tables(spec: str, vectors: Path) -> str:
+    """The text of SPEC.md with new generated parts."""
+    for name, text in (("messages", message_tables(vectors)), ("connection", connection_table())):
         begin, end = _BEGIN.format(name), _END.format(name)
         head, rest = spec.split(begin)
         spec = head + begin + "\n" + text + "\n" + end + rest.split(end)[1]
@@ -188,7 +190,7 @@ def documents(root: Path) -> dict[Path, str]:
             for name, schema in schemas.items()
         },
         folder / "ERRORS.md": error_catalogue(),
-        spec: with_tables(spec.read_text(encoding="utf-8")),
+        spec: with_tables(spec.read_text(encoding="utf-8"), folder / "vectors"),
         **cpp.sources(root),
     }
 

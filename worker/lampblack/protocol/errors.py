@@ -9,7 +9,7 @@ from ..errors import LampblackError
 
 
 class ErrorCode(StrEnum):
-    """What went wrong, in a word that never changes its meaning (``CATALOGUE``)."""
+    """Codes of errors. A code never changes its meaning (``CATALOGUE``)."""
 
     BAD_FRAME_COUNT = "bad_frame_count"
     HEADER_TOO_LARGE = "header_too_large"
@@ -174,7 +174,9 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ErrorCode.DRAWING_UNUSABLE: Entry(
         "The drawing of a frame cannot be lit.", "Do what the message says."
     ),
-    ErrorCode.NOTHING_DRAWN: Entry("The frame is blank: there is no figure to light.", "Draw one."),
+    ErrorCode.NOTHING_DRAWN: Entry(
+        "The frame is blank: there is no character to light.", "Draw one."
+    ),
     ErrorCode.DRAWING_WARNING: Entry(
         "The frame was lit, but there is something to know about it.", "Read the message."
     ),

@@ -16,14 +16,13 @@ MILLISECONDS = {"x-unit": "ms"}
 
 Count = Annotated[int, Meta(ge=0, le=MAX_NUMBER)]
 FrameNumber = Annotated[
-    int, Meta(ge=0, le=999_999, description="frame of the animation, as the drawing program counts")
+    int,
+    Meta(ge=0, le=999_999, description="frame of the animation, in the drawing program's count"),
 ]
 Request = Annotated[
-    int, Meta(ge=1, le=MAX_NUMBER, description="chosen by the client, each above the last")
+    int, Meta(ge=1, le=MAX_NUMBER, description="number of the request, chosen by the client; rises")
 ]
-Revision = Annotated[
-    int, Meta(ge=1, le=MAX_NUMBER, description="of the scene, each above the last")
-]
+Revision = Annotated[int, Meta(ge=1, le=MAX_NUMBER, description="revision of the scene; rises")]
 Digest = Annotated[
     str,
     Meta(pattern="^[0-9a-f]{40}$", max_length=40, description="BLAKE2b-160 of a frame's planes"),
@@ -32,7 +31,7 @@ Name = Annotated[str, Meta(min_length=1, max_length=64)]
 Sentence = Annotated[str, Meta(max_length=500)]
 Capabilities = Annotated[
     tuple[Annotated[str, Meta(pattern=r"^[a-z0-9_]+$(?!\n)", max_length=32)], ...],
-    Meta(max_length=32, description="optional things the sender can do"),
+    Meta(max_length=32, description="optional features of the sender"),
 ]
 ImageSide = Annotated[int, Meta(ge=1, le=4096, extra_json_schema=PIXELS)]
 
@@ -52,4 +51,4 @@ def snake_case(name: str) -> str:
 
 
 class Message(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag=snake_case):
-    """What all messages are."""
+    """Base of all messages."""

@@ -1,4 +1,4 @@
-"""Messages about drawings: which frame shows which, their pixels and their flat colours."""
+"""Messages about drawings: which frame shows which drawing, its pixels and flat colours."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .planes import Plane
 Coefficient = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Affine = Annotated[
     tuple[Coefficient, Coefficient, Coefficient, Coefficient, Coefficient, Coefficient],
-    Meta(description="canvas to view, 2 x 3, row by row"),
+    Meta(description="affine map from canvas to view, 2 x 3, row by row"),
 ]
 
 
 class PutFrame(Message, frozen=True, kw_only=True):
-    """Frame ``frame`` shows the drawing ``digest``; its planes come along or were sent before.
+    """Frame ``frame`` shows the drawing ``digest``; its planes follow or were sent before.
 
     Without planes the worker answers need_frame if it does not hold the drawing. Planes:
     ``pixels`` (rgba8), then optionally ``mask`` and ``ink`` (a8), all of one size.
@@ -28,12 +28,12 @@ class PutFrame(Message, frozen=True, kw_only=True):
     digest: Digest
     camera: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
     planes: Annotated[
-        tuple[Plane, ...], Meta(max_length=3, description="of the frames that follow, in order")
+        tuple[Plane, ...], Meta(max_length=3, description="the planes that follow, in order")
     ] = ()
 
 
 class NeedFrame(Message, frozen=True, kw_only=True):
-    """The worker does not hold a drawing that was announced; answered by put_frame."""
+    """The worker needs an announced drawing that it does not hold; answered by put_frame."""
 
     frame: FrameNumber
     digest: Digest
@@ -46,14 +46,14 @@ class DropFrame(Message, frozen=True, kw_only=True):
 
 
 class GetPalette(Message, frozen=True, kw_only=True):
-    """Ask for the flat colours of a frame; answered by palette."""
+    """Request the flat colours of a frame; answered by palette."""
 
     request: Request
     frame: FrameNumber
 
 
 class Swatch(msgspec.Struct, frozen=True, kw_only=True):
-    """One flat colour and how many pixels of the fill wear it."""
+    """One flat colour and its number of pixels in the fill."""
 
     colour: Colour
     pixels: Count

@@ -16,7 +16,7 @@ from .version import PREFIX
 
 
 def parse_header(header: bytes) -> dict[str, Any]:
-    """The header's JSON object. Of keys that come twice, the last counts.
+    """The header's JSON object. If a key is there twice, the last one counts.
 
     ``1.0`` and ``1e0`` are the integer 1.
 
@@ -30,12 +30,12 @@ def parse_header(header: bytes) -> dict[str, Any]:
         raise ProtocolError(ErrorCode.BAD_NUMBER, str(error)) from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise ProtocolError(ErrorCode.BAD_JSON, str(error)) from error
-    assert isinstance(tree, dict)  # it begins as an object does
+    assert isinstance(tree, dict)  # its first bytes open an object
     return tree
 
 
 def _number(text: str) -> float | int:
-    """Qt refuses numbers that overflow or that vanish; so does everyone."""
+    """A number; refuses those that overflow or become zero, as Qt does."""
     value = float(text)
     vanished = value == 0 and any(digit in "123456789" for digit in text.lower().split("e")[0])
     if vanished or not math.isfinite(value):
@@ -47,7 +47,7 @@ _PARSER = msgspec.json.Decoder(float_hook=_number)
 
 
 def read_scene(tree: object) -> Scene:
-    """The scene of set_scene, fields this version does not know included.
+    """The scene of set_scene, including fields that this version does not know.
 
     Raises:
         ProtocolError: ``BAD_SCENE``, with what is wrong in its details.
@@ -60,7 +60,7 @@ def read_scene(tree: object) -> Scene:
 
 
 def read_message(tree: dict[str, Any], kind: type[Message]) -> Message:
-    """The message of type ``kind``; fields it does not declare are ignored.
+    """The message of type ``kind``; undeclared fields are ignored.
 
     Raises:
         ProtocolError: ``BAD_FIELD`` or ``BAD_SCENE``, naming the field.
@@ -74,7 +74,7 @@ def read_message(tree: dict[str, Any], kind: type[Message]) -> Message:
 
 
 def write_header(message: Message) -> bytes:
-    """The header frame of a message, defaults and the scene's unknown fields included."""
+    """The header frame of a message, including defaults and the scene's unknown fields."""
     tree: dict[str, Any] = msgspec.to_builtins(message)
     if isinstance(message, SetScene):
         tree["scene"] = msgspec.json.decode(encode_scene(message.scene))

@@ -1,4 +1,4 @@
-"""How large a message may be. All of these hold before anything is parsed or allocated."""
+"""Limits of the size of a message. They are checked before anything is parsed or allocated."""
 
 from __future__ import annotations
 
@@ -29,4 +29,4 @@ class Limits:
 LIMITS = Limits()
 
 MAX_NUMBER = (1 << 53) - 1
-"""Every number's magnitude is at most this: beyond, doubles skip integers."""
+"""The largest magnitude of a number: above it, doubles skip integers."""

@@ -1,4 +1,4 @@
-"""All messages, by who sends them and by their type on the wire."""
+"""All messages, by sender and by type on the wire."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FromWorker = (
 
 
 def type_of(kind: type[Message]) -> str:
-    """The type a message goes by on the wire."""
+    """The type of a message on the wire."""
     return str(msgspec.inspect.type_info(kind).tag)  # type: ignore[attr-defined]
 
 

@@ -1,4 +1,4 @@
-"""Pixel planes: the raw frames that follow a header, and what the header says of them."""
+"""Pixel planes: the raw frames that follow a header, and their description in it."""
 
 from __future__ import annotations
 
@@ -30,18 +30,16 @@ class Plane(msgspec.Struct, frozen=True, kw_only=True):
     """One raw frame: ``height`` rows of ``stride`` bytes, the top row first.
 
     Of each row the first ``width`` times 1 (a8) or 4 (R, G, B, A) bytes are pixels; what
-    follows up to ``stride`` is padding and means nothing.
+    follows up to ``stride`` is padding and is ignored.
     """
 
-    role: Annotated[Role, Meta(description="what it shows")]
-    format: Annotated[Format, Meta(description="bytes of a pixel, in sRGB")]
+    role: Annotated[Role, Meta(description="content of the plane")]
+    format: Annotated[Format, Meta(description="bytes of a pixel, sRGB")]
     width: Annotated[int, Meta(ge=1, le=MAX_INT32, extra_json_schema=PIXELS)]
     height: Annotated[int, Meta(ge=1, le=MAX_INT32, extra_json_schema=PIXELS)]
     stride: Annotated[
         int,
-        Meta(
-            ge=1, le=MAX_INT32, description="from one row to the next row", extra_json_schema=BYTES
-        ),
+        Meta(ge=1, le=MAX_INT32, description="from one row to the next", extra_json_schema=BYTES),
     ]
 
     @property

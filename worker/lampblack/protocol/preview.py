@@ -1,4 +1,4 @@
-"""Messages that set the scene and show it: what is looked at, and the images that follow."""
+"""Messages of the live preview: the scene, the viewport, and the images of it."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Show = Literal["lit", "normals", "relief"]
 
 
 class SetScene(Message, frozen=True, kw_only=True):
-    """Replace the scene. Fields of the scene that the worker does not know are kept."""
+    """Replace the scene. The worker keeps fields of the scene that it does not know."""
 
     revision: Revision
     scene: Annotated[Scene, Meta(description="the whole scene, see scene.schema.json")]
 
 
 class Preview(Message, frozen=True, kw_only=True):
-    """Look at a frame, lit: images follow until this look is replaced or cancelled."""
+    """Set the viewport to a lit frame. Images follow until it is replaced or cancelled."""
 
     request: Request
     frame: FrameNumber
@@ -32,7 +32,7 @@ class Preview(Message, frozen=True, kw_only=True):
 
 
 class View(Message, frozen=True, kw_only=True):
-    """Look at a frame's normals or relief instead; one look holds at a time."""
+    """Set the viewport to a frame's normals or relief. A client has one viewport."""
 
     request: Request
     frame: FrameNumber
@@ -49,22 +49,24 @@ class View(Message, frozen=True, kw_only=True):
 
 
 class Image(Message, frozen=True, kw_only=True):
-    """A picture of a look. It replaces the drawing, ink included, in the whole of its crop.
+    """A picture for the viewport. It replaces the drawing and its ink in the whole crop.
 
     One plane: ``picture`` (rgba8_premultiplied), at most of the wanted size.
     """
 
     request: Request
     frame: FrameNumber
-    digest: Annotated[Digest, Meta(description="of the drawing that is shown")]
-    revision: Annotated[Count, Meta(description="of the scene that is shown; 0: none was set")]
+    digest: Annotated[Digest, Meta(description="digest of the drawing that is shown")]
+    revision: Annotated[
+        Count, Meta(description="revision of the scene that is shown; 0: no scene was set")
+    ]
     show: Show
     pass_: Annotated[
-        Count, Meta(description="rises from 0 while request, digest and revision stay")
+        Count, Meta(description="rises from 0 while request, digest and revision are the same")
     ] = msgspec.field(name="pass")
     spp: Annotated[Count, Meta(description="samples per pixel so far")]
-    converged: Annotated[bool, Meta(description="nothing better follows until something changes")]
+    converged: Annotated[bool, Meta(description="no finer image follows until something changes")]
     crop: Annotated[Crop, Meta(description="the part of the frame that is shown")]
     planes: Annotated[
-        tuple[Plane, ...], Meta(max_length=1, description="of the frame that follows")
+        tuple[Plane, ...], Meta(max_length=1, description="the plane that follows")
     ] = ()

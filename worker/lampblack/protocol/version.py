@@ -1,4 +1,4 @@
-"""The protocol's version, which is not the package's, and the bytes every header begins with."""
+"""The protocol's version, independent of the package's, and the first bytes of every header."""
 
 from __future__ import annotations
 
@@ -7,4 +7,4 @@ MINOR = 0
 
 MAGIC = b'{"lampblack":'
 PREFIX = MAGIC + str(MAJOR).encode() + b","
-"""A header begins with exactly these bytes: whom it is for is known before it is parsed."""
+"""A header begins with exactly these bytes, so its version is known before parsing."""
