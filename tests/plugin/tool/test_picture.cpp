@@ -12,7 +12,7 @@ namespace
 {
 
 const QSize View(640, 480);
-const QSize Canvas(400, 300);
+const QSize CanvasSize(400, 300);
 const QRect Mark(260, 90, 12, 12); // canvas pixels; off every axis of symmetry
 
 PreviewImage imageOf(const QRectF& crop, double pixelsPerCanvasPixel)
@@ -89,7 +89,7 @@ private Q_SLOTS:
         QFETCH(double, pixelRatio);
         QFETCH(double, density);
         LitPicture picture;
-        picture.setPicture(imageOf(QRectF(QPointF(), QSizeF(Canvas)), density), QTransform());
+        picture.setPicture(imageOf(QRectF(QPointF(), QSizeF(CanvasSize)), density), QTransform());
         const QImage shown = shownBy(picture, view, pixelRatio);
         const QPointF expected = view.map(QRectF(Mark).center());
         const QPointF found = centreOfMark(shown, pixelRatio);
@@ -123,13 +123,13 @@ private Q_SLOTS:
 
     void whatIsNotLitShowsUnderAndOverIt()
     {
-        PreviewImage image = imageOf(QRectF(QPointF(), QSizeF(Canvas)), 1);
+        PreviewImage image = imageOf(QRectF(QPointF(), QSizeF(CanvasSize)), 1);
         image.picture.fill(Qt::transparent);
         LitPicture picture;
         picture.setPicture(image, QTransform());
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(Qt::white));
         FrameExport hills;
-        hills.image = QImage(Canvas, QImage::Format_RGBA8888);
+        hills.image = QImage(CanvasSize, QImage::Format_RGBA8888);
         hills.image.fill(QColor(0, 128, 0));
         picture.setUnlitLayers(hills, {});
         QCOMPARE(QColor(shownBy(picture, QTransform(), 1).pixel(50, 50)), QColor(0, 128, 0));
@@ -157,7 +157,7 @@ private Q_SLOTS:
         overlay.show();
         overlay.updateHandles();
         QCOMPARE(overlay.size(), host.mCanvas->size());
-        overlay.setPicture(imageOf(QRectF(QPointF(), QSizeF(Canvas)), 1), QTransform());
+        overlay.setPicture(imageOf(QRectF(QPointF(), QSizeF(CanvasSize)), 1), QTransform());
         const auto at = [&host](int x, int y)
         {
             return QColor(host.mCanvas->grab().toImage().pixel(x, y));
