@@ -1,6 +1,6 @@
-"""What people read: progress, warnings and errors, all on stderr.
+"""Progress, warnings and errors for people, all on stderr.
 
-``rich`` is imported when there is something to show: ``--help`` should not wait for it.
+``rich`` is imported only when there is something to show, so that ``--help`` is fast.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def say(text: str, style: str = "") -> None:
 
 
 def print_error(error: LampblackError, subject: str = "") -> None:
-    """What happened, what to do, and details to copy."""
+    """Print an error: what happened, what to do, and details to copy."""
     _console().print("[bold red]error:[/] ", end="")
     say(subject + error.what)
     if error.remedy:
@@ -63,8 +63,8 @@ def _terminate(number: int, frame: FrameType | None) -> NoReturn:
 def for_people() -> Iterator[None]:
     """Run a command: warnings and errors are printed as sentences, and set the exit code.
 
-    SIGTERM and a closed terminal unwind like Ctrl-C does, so that no half-written file and no
-    child stay behind.
+    SIGTERM and a closed terminal act like Ctrl-C, so that no incomplete file and no child process
+    remain.
     """
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _terminate)
@@ -82,7 +82,7 @@ def for_people() -> Iterator[None]:
 
 
 def progress_bar() -> Progress:
-    """A bar that leaves no trace when it is done; silent where there is no terminal."""
+    """A progress bar that is removed at the end; invisible without a terminal."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     return Progress(

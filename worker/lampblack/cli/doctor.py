@@ -1,4 +1,4 @@
-"""``lampblack doctor``: is everything there, and does it work here?"""
+"""``lampblack doctor``: a check of the installation."""
 
 from __future__ import annotations
 

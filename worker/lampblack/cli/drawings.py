@@ -1,4 +1,4 @@
-"""The drawings of a shot, one after another, for commands that look at each."""
+"""The drawings of a shot, one after another, for commands that use each of them."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ def each_drawing(
     doing: str,
     read: Callable[[ShotFrame], Drawing] | None = None,
 ) -> Iterator[tuple[Frames, Drawing]]:
-    """Each group of frames that show one drawing, with the drawing as ``read`` finds it; None
-    takes it apart.
+    """Each group of frames that show one drawing, with the result of ``read`` for it. Without
+    ``read``, the drawing is decomposed.
 
-    A blank drawing is passed over with a warning. One that cannot be read is reported and passed
-    over; after the last, the command ends as failed. Both are errors if the shot is one drawing.
+    A blank drawing is skipped with a warning. A drawing that cannot be read is reported and
+    skipped, and the command fails at the end. Both are errors if the shot is a single drawing.
     """
     from ..drawing import decompose_drawing
 

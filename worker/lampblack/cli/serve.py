@@ -33,6 +33,6 @@ def serve(
     """
     from ..service.serve import serve_forever
 
-    # The drawing program's own thread goes first where both want a processor.
+    # The drawing program has priority when both need a processor.
     os.nice(5)
     serve_forever(connection, parent_pid)

@@ -1,4 +1,4 @@
-"""``lampblack palette`` and ``scene``: what a scene is set up from."""
+"""``lampblack palette`` and ``scene``: flat colours, and a scene file to start from."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def scene(
 
 
 def _count_colours(shot: ResolvedShot) -> list[tuple[str, int]]:
-    """Flat colours and their pixels over all frames, most used first."""
+    """Flat colours and their numbers of pixels over all frames, most used first."""
     from ..shot import by_drawing
 
     counts: Counter[str] = Counter()

@@ -1,4 +1,4 @@
-"""``lampblack normals`` and ``mesh``: what a drawing's light falls on, one drawing or a shot."""
+"""``lampblack normals`` and ``mesh``: normal maps and relief meshes of drawings."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def mesh(
 
 
 def _resolve(settings: RenderSettings, output: str, *kinds: str) -> tuple[ResolvedShot, Targets]:
-    """The shot, and the files that are written; what would lose something is refused."""
+    """The shot and its target files. Jobs that would lose a file are refused."""
     from ..finals.resolve import resolve_shot
     from ..finals.targets import Targets
 

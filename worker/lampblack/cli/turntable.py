@@ -1,4 +1,4 @@
-"""``lampblack turntable``: a quick look at the relief from the sides."""
+"""``lampblack turntable``: the relief seen from the sides."""
 
 from __future__ import annotations
 

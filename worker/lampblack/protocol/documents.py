@@ -1,4 +1,4 @@
-"""What is generated from the types: schemas, the error catalogue, the tables of SPEC.md, and C++.
+"""Generates from the types: schemas, the error catalogue, tables and examples of SPEC.md, and C++.
 
 Run as ``python -m lampblack.protocol.documents`` in a checkout.
 """
@@ -58,7 +58,7 @@ def connection_schema() -> dict[str, Any]:
 
 
 def error_catalogue() -> str:
-    """``ERRORS.md``: what each code means and what the person should do."""
+    """``ERRORS.md``: the meaning of each code, and what to do."""
     lines = [
         "# Errors",
         "",
@@ -176,7 +176,7 @@ def with_tables(spec: str, vectors: Path) -> str:
 
 
 def documents(root: Path) -> dict[Path, str]:
-    """Every generated file of the checkout at ``root``, and what belongs into it."""
+    """The content of every generated file of the checkout at ``root``."""
     folder = root / "protocol"
     spec = folder / "SPEC.md"
     schemas = {

@@ -1,4 +1,4 @@
-"""The plugin's half of the types: the C++ that mirrors the scene and the messages."""
+"""Generates the plugin's C++ for the scene and the messages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ FOLDER = Path("pencil2d_plugin")
 
 
 def sources(root: Path) -> dict[Path, str]:
-    """Every generated C++ file of the tree at ``root``, and what belongs into it."""
+    """The content of every generated C++ file of the checkout at ``root``."""
     written = {**scene.files(), **messages.files()}
     return {
         path: formatted(text, path)

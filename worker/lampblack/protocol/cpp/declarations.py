@@ -1,4 +1,4 @@
-"""Declarations of C++: enumerations, structs, and the functions that describe a struct's fields."""
+"""C++ declarations: enumerations, structs, and functions that describe a struct's fields."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .text import comment, pascal
 
 
 def enums_in(modules: Iterable[ModuleType]) -> dict[Words, str]:
-    """The ``Literal`` types that modules give a name, by their words."""
+    """The named ``Literal`` types of modules, by their words."""
     return {
         get_args(value): name.removesuffix("Name")
         for module in modules
@@ -27,7 +27,7 @@ def enum(name: str, words: Words) -> str:
 
 
 def choices(name: str, enum: str, words: Words) -> str:
-    """The words of an enumeration's values, in JSON."""
+    """The JSON words of an enumeration's values."""
     pairs = ", ".join(f'{{"{word}", {enum}::{pascal(word)}}}' for word in words)
     return f"constexpr std::array<Choice<{enum}>, {len(words)}> {name} = {{{{{pairs}}}}};\n"
 
@@ -47,7 +47,7 @@ def _struct(kind: type, translator: Translator) -> Iterator[str]:
 
 
 def describe(kind: type, translator: Translator) -> str:
-    """The function that walks a struct's fields, to read, write or change them."""
+    """The function that visits a struct's fields, to read, write or change them."""
     name = struct_name(kind)
     calls = [translator.member(name, field).call for field in fields_of(kind)]
     head = f"template <class Fields> void describe(Fields& fields, {name}& value)"
@@ -55,7 +55,7 @@ def describe(kind: type, translator: Translator) -> str:
 
 
 def patterns(translator: Translator) -> str:
-    """Every regular expression of a station, compiled once."""
+    """All regular expressions of a library, each compiled once."""
     members = (
         f'QRegularExpression {name}{{QStringLiteral(R"({expression})")}};'
         for expression, name in translator.patterns.items()
@@ -74,7 +74,7 @@ inline const Patterns& patterns()
 
 
 def header(heading: str, includes: Iterable[str], namespace: str, parts: Iterable[str]) -> str:
-    """A whole header."""
+    """A complete header file."""
     return f"""{heading}
 #pragma once
 

@@ -1,4 +1,4 @@
-"""The fields of Python types, as the generator of C++ looks at them."""
+"""The fields of Python types, for the C++ generator."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Meta
 
 REQUIRED = object()
-"""In the place of a default: the field has none."""
+"""Marks a field without a default."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Field:
 
 
 def fields_of(kind: type) -> list[Field]:
-    """The fields of a dataclass or of a ``msgspec.Struct``, in their order."""
+    """The fields of a dataclass or ``msgspec.Struct``, in order."""
     if dataclasses.is_dataclass(kind):
         hints = get_type_hints(kind, include_extras=True)
         return [
@@ -46,14 +46,14 @@ def _default(value: Any, factory: Any) -> Any:
 
 
 def is_struct(hint: Any) -> bool:
-    """Whether it has fields of its own."""
+    """Whether the type has fields."""
     return isinstance(hint, type) and (
         dataclasses.is_dataclass(hint) or issubclass(hint, msgspec.Struct)
     )
 
 
 def structs_in(kinds: Iterable[type]) -> list[type]:
-    """The structs and all that they hold, each after those that it needs, each once."""
+    """The structs and all structs in them, each once and after those that it needs."""
 
     def walk(hint: Any) -> Iterator[type]:
         inner = [field.hint for field in fields_of(hint)] if is_struct(hint) else get_args(hint)
@@ -66,7 +66,7 @@ def structs_in(kinds: Iterable[type]) -> list[type]:
 
 
 def unwrapped(hint: Any) -> tuple[Any, Meta]:
-    """A type without ``Annotated``, and what all its ``Meta`` say together: the last one counts."""
+    """A type without ``Annotated``, and all of its ``Meta`` merged; the last one counts."""
     if get_origin(hint) is not Annotated:
         return hint, Meta()
     names = ("ge", "le", "pattern", "min_length", "max_length", "description")

@@ -1,4 +1,4 @@
-"""A field of a Python type as a member of a C++ struct, and the call that reads or writes it."""
+"""From a field of a Python type to a member of a C++ struct and the call that handles it."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Words = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Form:
-    """A type of Qt that stands for one of ours; field_forms.h says how.
+    """A Qt type that represents a Python type; the conversion is in field_forms.h.
 
     Attributes:
-        hint: ours.
-        type: Qt's.
-        initial: an initializer of Qt's from one of our values.
+        hint: the Python type.
+        type: the Qt type.
+        initial: makes an initializer of the Qt type from a Python value.
     """
 
     hint: Any
@@ -38,7 +38,7 @@ class Member:
 
     Attributes:
         declaration: its type, name and default.
-        note: what it means, and its range.
+        note: its meaning and its range.
         call: the statement that reads or writes the member of ``value``.
     """
 
@@ -49,14 +49,14 @@ class Member:
 
 @dataclass(frozen=True)
 class _Rule:
-    """How values of a type are held and checked.
+    """The C++ representation of a type, and its checks.
 
     Attributes:
-        type: in C++.
-        method: of JsonReader and JsonWriter.
-        arguments: of the method, after the name and the value.
-        blank: the initializer where there is no default.
-        range: for people.
+        type: C++ type.
+        method: method of JsonReader and JsonWriter.
+        arguments: further arguments of the method, after name and value.
+        blank: initializer without a default.
+        range: range, for people.
     """
 
     type: str
@@ -68,13 +68,13 @@ class _Rule:
 
 @dataclass
 class Translator:
-    """The types of one station, as its C++ has them.
+    """Translates the types of one library.
 
     Attributes:
-        enums: the name of each enumeration, by the words it has in JSON.
-        forms: types that are one of Qt's in C++.
-        patterns: found so far: the name of each regular expression.
-        choices: found so far: some of an enumeration's words, by the name of their list.
+        enums: names of enumerations, by their JSON words.
+        forms: types that are Qt types in C++.
+        patterns: names of the regular expressions so far.
+        choices: lists with a part of an enumeration's words so far, by name.
     """
 
     enums: Mapping[Words, str]
@@ -142,7 +142,7 @@ class Translator:
         return _Rule(f"QVector<{item.type}>", method, (most,), range=f"{most} at most")
 
     def _lengths(self, meta: Meta, name: str) -> tuple[str, ...]:
-        """Shortest, longest, and the regular expression if there is one."""
+        """Shortest and longest length, and the regular expression if there is one."""
         lengths = (str(meta.min_length or 0), str(meta.max_length))
         if meta.pattern is None:
             return lengths
@@ -151,7 +151,7 @@ class Translator:
         return (*lengths, f"patterns().{self.patterns.setdefault(expression, name)}")
 
     def _enum(self, words: Words) -> str:
-        """The enumeration that has exactly these words, or them and others."""
+        """The enumeration with exactly these words, or with these and others."""
         names = [name for known, name in self.enums.items() if {*words} <= {*known}]
         if not names:
             raise TypeError(f"Literal{[*words]} needs a name: Name = Literal[...] in its module")
@@ -187,7 +187,7 @@ def struct_name(kind: type) -> str:
 
 
 def number(value: float) -> str:
-    """A literal."""
+    """A C++ literal."""
     if value == MAX_NUMBER:
         return "MaxNumber"
     return str(int(value)) if value == int(value) else repr(value)
@@ -207,7 +207,7 @@ def _number(base: type, meta: Meta) -> _Rule:
 
 
 def _is(hint: Any, form: Any) -> bool:
-    """Whether ``hint`` is the type ``form``, or that with more said of it."""
+    """Whether ``hint`` is the type ``form``, or an ``Annotated`` of it."""
     metadata = getattr(form, "__metadata__", ())
     same = getattr(hint, "__metadata__", ())[: len(metadata)] == metadata
     return same and unwrapped(hint)[0] == unwrapped(form)[0]

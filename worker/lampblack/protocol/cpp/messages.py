@@ -36,7 +36,7 @@ ENUMS = {words: name for words, name in NAMED.items() if words not in scene.ENUM
 
 
 def files() -> dict[str, str]:
-    """Every generated file of the station, by its path in the plugin's folder."""
+    """Every generated file of the library, by its path in the plugin's folder."""
     return {
         "protocol/generated/messages.h": _types(),
         "protocol/generated/message_fields.h": _fields(),

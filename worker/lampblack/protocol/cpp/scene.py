@@ -1,4 +1,4 @@
-"""The scene in C++: its structs, their equality, their fields in JSON, and what keys change."""
+"""The scene in C++: structs, their equality, their fields in JSON, and interpolation of keys."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ENUMS = {
 
 
 def files() -> dict[str, str]:
-    """Every generated file of the station, by its path in the plugin's folder."""
+    """Every generated file of the library, by its path in the plugin's folder."""
     return {
         "scene/generated/scene_types.h": _types(),
         "scene/generated/scene_types.cpp": _equality(),
