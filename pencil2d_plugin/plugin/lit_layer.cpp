@@ -99,7 +99,7 @@ void LitLayer::onLayerDelivered()
     roles.insert(Name, Result);
     if (mHideSources)
     {
-        // Only hidden layers with a role are lit, see sortLayers().
+        // A hidden layer is lit only if it has a role, see sortLayers().
         for (const QString& source : sources)
         {
             if (!roles.contains(source))

@@ -21,8 +21,8 @@ constexpr int HeartbeatMs = 1000;
 constexpr int HeartbeatTimeoutMs = 5000;
 constexpr qint64 GreetingMs = 10000;
 constexpr int MaxRefusalsLogged = 10;
-constexpr int MaxAtOnce = 64;           // taken in before anything is sent again
-constexpr size_t MaxFrames = 1 + 4 + 1; // one too many tells the decoder as well as a thousand
+constexpr int MaxAtOnce = 64;           // messages read before anything is sent again
+constexpr size_t MaxFrames = 1 + 4 + 1; // one more than allowed is enough for the decoder to refuse
 
 qint64 nowMs()
 {
@@ -195,7 +195,7 @@ void WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake)
         const bool reading = !inboxIsFull();
         if (!reading)
         {
-            mLastTickMs = nowMs(); // the silence is ours
+            mLastTickMs = nowMs(); // we do not read, so we cannot know
         }
         const int events = (reading ? ZMQ_POLLIN : 0) | (outboxIsEmpty() ? 0 : ZMQ_POLLOUT);
         zmq::pollitem_t items[] = {{wake.handle(), 0, ZMQ_POLLIN, 0},
@@ -265,7 +265,7 @@ bool WorkerLink::receivePending(zmq::socket_t& socket)
             {
                 frames.emplace_back();
             }
-            // A message arrives whole: its other frames are there.
+            // Messages arrive complete: the other frames are there.
             (void)socket.recv(frames.back(), zmq::recv_flags::none);
         }
         handleMessage(frames);

@@ -57,10 +57,10 @@ private:
     bool mClosing = false;
 
     // Used by the thread only.
-    qint64 mTimeoutMs = 0;  ///< silence that is borne
-    qint64 mLastTickMs = 0; ///< when a tick came last, by a clock that only rises
+    qint64 mTimeoutMs = 0;  ///< how long no status may come
+    qint64 mLastTickMs = 0; ///< when the last status came, by a monotonic clock
     int mRefusals = 0;
-    bool mReportedTooLong = false; ///< once is enough: a dragged light would tell of it without end
+    bool mReportedTooLong = false; ///< reported once only: a dragged light would repeat it
 };
 
 } // namespace lampblack

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr int MinAlpha = 128;
-constexpr int SearchRadius = 4;            // pixels that are looked at around a line
+constexpr int SearchRadius = 4;            // pixels
 constexpr int MaxSquaredDistance = 3 * 64; // sum of squares: 8 levels a channel
 
 int squaredDistance(QRgb a, QRgb b)
@@ -40,7 +40,7 @@ QString FrameColours::at(const QPointF& canvas) const
         return {};
     const QRgb drawn = mFrame.image.pixel(pixel);
     QRgb best = drawn;
-    // A pixel of a swatch's own colour close by says more than the nearest colour to ink.
+    // Prefer a nearby pixel that has the colour of a swatch. On ink, the most similar swatch would be wrong.
     int nearestPixel = std::numeric_limits<int>::max();
     for (int dy = -SearchRadius; dy <= SearchRadius; ++dy)
     {

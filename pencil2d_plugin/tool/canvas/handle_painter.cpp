@@ -145,7 +145,7 @@ void paintFloor(QPainter& painter, const FloorShape& floor, bool hovered)
     QPainterPath patch;
     patch.addPolygon(floor.patch);
     patch.closeSubpath();
-    // Two lines each way make the patch read as a tile of floor in perspective.
+    // With two lines each way the patch looks like tiles of floor in perspective.
     for (int third = 1; third <= 2; ++third)
     {
         const double t = third / 3.0;

@@ -94,7 +94,7 @@ std::optional<FloorShape> shapeOf(const Floor& floor, double width, const QTrans
     const QPointF along = (whole.p2() - whole.p1()) / whole.length() * (PatchSide / 2);
     const QLineF down(QPointF(), transform.map(QPointF(0, 1)) - transform.map(QPointF(0, 0)));
     const QPointF deep = down.p2() / down.length() * PatchSide * std::sin(qDegreesToRadians(floor.pitch));
-    // Wider towards the viewer: what is drawn so reads as floor.
+    // Wider towards the viewer, so that it looks like floor.
     shape.patch << shape.grip - along * PatchFar << shape.grip + along * PatchFar << shape.grip + along + deep
                 << shape.grip - along + deep;
     return shape;
@@ -145,7 +145,7 @@ Handle Handles::at(const QPointF& position) const
 {
     QVector<int> order;
     for (int light = 0; light < mLights.size(); ++light)
-        order.prepend(light); // what is painted last is touched first
+        order.prepend(light); // the one painted last is on top
     if (mSelected >= 0 && mSelected < mLights.size())
     {
         order.removeOne(mSelected);
@@ -183,7 +183,7 @@ QRegion Handles::region() const
                       .toAlignedRect();
         const double ring = light.ring + Stroke;
         const QRect outer = QRectF(light.place, QSizeF()).adjusted(-ring, -ring, ring, ring).toAlignedRect();
-        // A large ring touches little of what it encloses.
+        // Leave out the inside of a large ring.
         const double hollow = light.ring * M_SQRT1_2 - Stroke;
         const QRectF inner = QRectF(light.place, QSizeF()).adjusted(-hollow, -hollow, hollow, hollow);
         region += hollow > 2 * body ? QRegion(outer).subtracted(inner.toAlignedRect()) : QRegion(outer);

@@ -10,7 +10,7 @@ namespace lampblack
 namespace
 {
 constexpr int MaxOtherRows = 256; // rows; the scene may hold thousands
-constexpr int MinLines = 8;       // of text: a few colours in sight
+constexpr int MinLines = 8;       // of text, so that a few colours are visible
 } // namespace
 
 MaterialsDock::MaterialsDock(SceneDocument& document)

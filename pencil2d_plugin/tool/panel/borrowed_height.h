@@ -29,7 +29,7 @@ private:
     void resize(int Neighbour::*height);
 
     QPointer<QDockWidget> mDock;
-    QVector<Neighbour> mNeighbours; ///< and the dock itself, while it borrows
+    QVector<Neighbour> mNeighbours; ///< and the dock itself, while it is higher
     int mLastHeight = 0;            ///< height that the artist left it with
 };
 

@@ -1,4 +1,5 @@
-// Handles stand where their lights are, keep their size at every zoom, and are hit where they show.
+// Handles are at the places of their lights, have the same size at every zoom, and can be hit where they are
+// painted.
 #include "support/scenes.h"
 #include "tool/canvas/handles.h"
 

@@ -230,7 +230,7 @@ private:
             image(request, frame, digest, mRevision - 1, 9, 9); // an older scene
             image(request, frame + 1, digest, mRevision, 9, 9); // another frame
             image(request, frame, QString(40, QLatin1Char('a')), mRevision, 9, 9);
-            image(request + 100, frame, digest, mRevision, 9, 9); // a look that nobody took
+            image(request + 100, frame, digest, mRevision, 9, 9); // a request that was not made
             image(request, frame, digest, mRevision, 6, 6);
             return;
         }
