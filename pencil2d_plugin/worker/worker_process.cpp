@@ -16,37 +16,37 @@ namespace lampblack
 namespace
 {
 
-constexpr int LookMs = 50;
-constexpr int StartMs = 60000; // importing the network's library from a cold disk is slow
-constexpr int EndMs = 2000;
-constexpr int PausesMs[] = {0, 1000, 3000};
-constexpr int MostDeaths = 4;
+constexpr int ConnectionCheckMs = 50;
+constexpr int StartTimeoutMs = 60000; // importing the network's library from a cold disk is slow
+constexpr int EndTimeoutMs = 2000;
+constexpr int RestartDelaysMs[] = {0, 1000, 3000};
+constexpr int MaxDeaths = 4;
 constexpr qint64 MinuteMs = 60000;
-constexpr int MostWords = 4096;
+constexpr int MaxStderrBytes = 4096;
 
-/// What a worker needs of ours, and nothing that would bend its Python or its libraries.
+/// The variables that a worker needs. Others could change which Python modules or libraries it loads.
 QProcessEnvironment cleanEnvironment(const QString& folder)
 {
     static const QStringList kept = {QStringLiteral("HOME"), QStringLiteral("PATH"),
                                      QStringLiteral("USER"), QStringLiteral("LOGNAME"),
                                      QStringLiteral("LANG"), QStringLiteral("LANGUAGE")};
-    static const QStringList keptBeginnings = {QStringLiteral("LC_"), QStringLiteral("XDG_"),
-                                               QStringLiteral("LAMPBLACK_")};
+    static const QStringList keptPrefixes = {QStringLiteral("LC_"), QStringLiteral("XDG_"),
+                                             QStringLiteral("LAMPBLACK_")};
     const QProcessEnvironment ours = QProcessEnvironment::systemEnvironment();
     QProcessEnvironment clean;
     const QStringList names = ours.keys();
     for (const QString& name : names)
     {
-        const auto begins = [&name](const QString& beginning)
+        const auto startsWith = [&name](const QString& prefix)
         {
-            return name.startsWith(beginning);
+            return name.startsWith(prefix);
         };
-        if (kept.contains(name) || std::any_of(keptBeginnings.begin(), keptBeginnings.end(), begins))
+        if (kept.contains(name) || std::any_of(keptPrefixes.begin(), keptPrefixes.end(), startsWith))
         {
             clean.insert(name, ours.value(name));
         }
     }
-    // So that its socket and whatever else it leaves when it is killed goes with our folder.
+    // Its socket, and other files that it leaves if it is killed, are removed with this folder.
     clean.insert(QStringLiteral("TMPDIR"), folder);
     clean.remove(QStringLiteral("XDG_RUNTIME_DIR"));
     return clean;
@@ -58,24 +58,24 @@ WorkerProcess::WorkerProcess(const Interpreter& interpreter, QObject* parent)
     : QObject(parent), mInterpreter(interpreter)
 {
     mClock.start();
-    mLooking.setInterval(LookMs);
-    mPause.setSingleShot(true);
-    connect(&mLooking, &QTimer::timeout, this, &WorkerProcess::lookForConnection);
-    connect(&mPause, &QTimer::timeout, this, &WorkerProcess::launch);
+    mConnectionTimer.setInterval(ConnectionCheckMs);
+    mRestartTimer.setSingleShot(true);
+    connect(&mConnectionTimer, &QTimer::timeout, this, &WorkerProcess::checkForConnection);
+    connect(&mRestartTimer, &QTimer::timeout, this, &WorkerProcess::launch);
 }
 
 WorkerProcess::~WorkerProcess()
 {
     stop();
-    // Also those that were replaced a moment ago.
-    const auto leaving = findChildren<QProcess*>();
-    for (QProcess* process : leaving)
+    // Also wait for processes that stop() and restart() have only asked to end.
+    const auto processes = findChildren<QProcess*>();
+    for (QProcess* process : processes)
     {
         process->disconnect();
-        if (!process->waitForFinished(EndMs))
+        if (!process->waitForFinished(EndTimeoutMs))
         {
             process->kill();
-            process->waitForFinished(EndMs);
+            process->waitForFinished(EndTimeoutMs);
         }
     }
 }
@@ -88,21 +88,21 @@ void WorkerProcess::start()
     }
     mRunning = true;
     mDeaths.clear();
-    mPause.start(0);
+    mRestartTimer.start(0);
 }
 
 void WorkerProcess::stop()
 {
     mRunning = false;
-    mPause.stop();
-    dispose();
+    mRestartTimer.stop();
+    endProcess();
 }
 
-void WorkerProcess::replace(const QString& why)
+void WorkerProcess::restart(const QString& reason)
 {
     if (mRunning && mProcess != nullptr)
     {
-        died(why);
+        onDied(reason);
     }
 }
 
@@ -128,30 +128,30 @@ void WorkerProcess::launch()
                 mFolder->errorString()});
         return;
     }
-    mLastWords.clear();
+    mStderrTail.clear();
     mProcess = new QProcess(this);
     mProcess->setProcessEnvironment(cleanEnvironment(mFolder->path()));
     // Pencil2D's own folder may be a downloaded project: nothing in it is to be loaded.
     mProcess->setWorkingDirectory(mFolder->path());
     mProcess->setStandardInputFile(QProcess::nullDevice());
     mProcess->setStandardOutputFile(QProcess::nullDevice());
-    connect(mProcess, &QProcess::readyReadStandardError, this, &WorkerProcess::listen);
+    connect(mProcess, &QProcess::readyReadStandardError, this, &WorkerProcess::readStderr);
     connect(mProcess, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), this,
             [this](int code, QProcess::ExitStatus status)
             {
-                died(status == QProcess::CrashExit ? QStringLiteral("It was ended by signal %1.").arg(code)
-                                                   : QStringLiteral("It ended with code %1.").arg(code));
+                onDied(status == QProcess::CrashExit ? QStringLiteral("It was ended by signal %1.").arg(code)
+                                                     : QStringLiteral("It ended with code %1.").arg(code));
             });
     connect(mProcess, &QProcess::errorOccurred, this,
             [this](QProcess::ProcessError error)
             {
                 if (error == QProcess::FailedToStart)
                 {
-                    died(mProcess->errorString());
+                    onDied(mProcess->errorString());
                 }
             });
-    mLaunched.start();
-    mLooking.start();
+    mSinceLaunch.start();
+    mConnectionTimer.start();
     mProcess->start(mInterpreter.path,
                     {QStringLiteral("-I"), QStringLiteral("-m"), QStringLiteral("lampblack"),
                      QStringLiteral("serve"), QStringLiteral("--connection"),
@@ -159,23 +159,23 @@ void WorkerProcess::launch()
                      QString::number(QCoreApplication::applicationPid())});
 }
 
-void WorkerProcess::lookForConnection()
+void WorkerProcess::checkForConnection()
 {
     const QString path = mFolder->filePath(QStringLiteral("connection.json"));
     if (!QFile::exists(path))
     {
-        if (mLaunched.hasExpired(StartMs))
+        if (mSinceLaunch.hasExpired(StartTimeoutMs))
         {
-            died(QStringLiteral("It was not ready after %1 s.").arg(StartMs / 1000));
+            onDied(QStringLiteral("It was not ready after %1 s.").arg(StartTimeoutMs / 1000));
         }
         return;
     }
-    mLooking.stop();
+    mConnectionTimer.stop();
     QString fault;
     const std::optional<protocol::Connection> connection = protocol::readConnection(path, &fault);
     if (!connection)
     {
-        died(fault);
+        onDied(fault);
     }
     else if (connection->lampblack != protocol::Major)
     {
@@ -190,14 +190,14 @@ void WorkerProcess::lookForConnection()
     }
 }
 
-void WorkerProcess::listen()
+void WorkerProcess::readStderr()
 {
-    mLastWords = (mLastWords + mProcess->readAllStandardError()).right(MostWords);
+    mStderrTail = (mStderrTail + mProcess->readAllStandardError()).right(MaxStderrBytes);
 }
 
-void WorkerProcess::dispose()
+void WorkerProcess::endProcess()
 {
-    mLooking.stop();
+    mConnectionTimer.stop();
     if (mProcess == nullptr)
     {
         return;
@@ -212,10 +212,10 @@ void WorkerProcess::dispose()
     {
         connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), process,
                 &QObject::deleteLater);
-        QTimer::singleShot(EndMs, process, &QProcess::kill);
+        QTimer::singleShot(EndTimeoutMs, process, &QProcess::kill);
         if (process->state() == QProcess::Starting)
         {
-            process->kill(); // still a copy of our own program, with its signal handlers
+            process->kill(); // not terminate(): before exec it still has our signal handlers
         }
         else
         {
@@ -225,10 +225,10 @@ void WorkerProcess::dispose()
     mFolder.reset();
 }
 
-void WorkerProcess::died(const QString& how)
+void WorkerProcess::onDied(const QString& reason)
 {
-    listen();
-    dispose();
+    readStderr();
+    endProcess();
     const qint64 now = mClock.elapsed();
     mDeaths.append(now);
     const auto old = [now](qint64 death)
@@ -236,22 +236,22 @@ void WorkerProcess::died(const QString& how)
         return death < now - MinuteMs;
     };
     mDeaths.erase(std::remove_if(mDeaths.begin(), mDeaths.end(), old), mDeaths.end());
-    if (mLastWords.contains("No module named lampblack"))
+    if (mStderrTail.contains("No module named lampblack"))
     {
-        giveUp(notInstalled(mInterpreter, lastWords()));
+        giveUp(notInstalled(mInterpreter, stderrTail()));
     }
-    else if (mDeaths.size() >= MostDeaths)
+    else if (mDeaths.size() >= MaxDeaths)
     {
         giveUp({tr("Lampblack's worker ended %1 times within a minute.").arg(mDeaths.size()),
                 tr("Open a terminal and type: %1 -I -m lampblack doctor").arg(mInterpreter.path),
-                how + QLatin1Char('\n') + lastWords()});
+                reason + QLatin1Char('\n') + stderrTail()});
     }
     else
     {
         Q_EMIT lost();
         if (mRunning)
         {
-            mPause.start(PausesMs[mDeaths.size() - 1]);
+            mRestartTimer.start(RestartDelaysMs[mDeaths.size() - 1]);
         }
     }
 }

@@ -1,4 +1,4 @@
-// The worker's process: started, watched, started again, ended.
+// Starts, watches, restarts and ends the worker process.
 #pragma once
 
 #include "user_error.h"
@@ -15,9 +15,10 @@
 namespace lampblack
 {
 
-/// Runs `<python> -I -m lampblack serve` in a clean environment and in a private folder of each launch, so
-/// that no code of the current folder is run. Whatever it leaves lies there and goes with it. When it dies it
-/// is started again: at once, after 1 s, after 3 s; dying a fourth time within a minute it is given up.
+/// Runs `<python> -I -m lampblack serve` in a clean environment, in a private folder for each launch, so that
+/// no code from the current folder is run. The folder and all files in it are removed when the process ends.
+/// A process that dies is started again: at once, after 1 s, after 3 s. If it dies a fourth time within a
+/// minute, it is given up.
 class WorkerProcess : public QObject
 {
     Q_OBJECT
@@ -30,37 +31,37 @@ public:
     bool isRunning() const { return mRunning; }
     void start();
     void stop();
-    /// It runs, but is of no use any more (`why`, for the details): end it and start another.
-    void replace(const QString& why);
-    /// Start none any more, and tell.
+    /// End a process that is of no more use, and start another. `reason` is for the details of an error.
+    void restart(const QString& reason);
+    /// End the process, start no other, and emit gaveUp().
     void giveUp(const UserError& error);
 
     qint64 pid() const { return mProcess == nullptr ? 0 : mProcess->processId(); }
     /// The end of what it wrote to stderr, at most 4 kB.
-    QString lastWords() const { return QString::fromUtf8(mLastWords); }
+    QString stderrTail() const { return QString::fromUtf8(mStderrTail); }
 
 Q_SIGNALS:
-    void ready(const QString& endpoint); ///< it can be connected to
-    void lost();                         ///< it is gone; another is started by itself
+    void ready(const QString& endpoint); ///< clients can connect
+    void lost();                         ///< the process has ended; another is being started
     void gaveUp(const lampblack::UserError& error);
 
 private:
     void launch();
-    void lookForConnection();
-    void listen();
-    void dispose();
-    void died(const QString& how);
+    void checkForConnection();
+    void readStderr();
+    void endProcess();
+    void onDied(const QString& reason);
 
     const Interpreter mInterpreter;
     bool mRunning = false; ///< between start() and stop() or gaveUp()
     std::unique_ptr<QTemporaryDir> mFolder;
     QProcess* mProcess = nullptr;
-    QByteArray mLastWords;
-    QTimer mLooking;
-    QTimer mPause;
-    QElapsedTimer mLaunched;
+    QByteArray mStderrTail;
+    QTimer mConnectionTimer;
+    QTimer mRestartTimer;
+    QElapsedTimer mSinceLaunch;
     QElapsedTimer mClock;
-    QVector<qint64> mDeaths; ///< by mClock, of the last minute
+    QVector<qint64> mDeaths; ///< times by mClock, of the last minute
 };
 
 } // namespace lampblack

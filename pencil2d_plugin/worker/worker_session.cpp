@@ -269,7 +269,7 @@ void WorkerSession::connectTo(const QString& endpoint)
     }
     catch (const std::exception& error)
     {
-        mProcess.replace(QString::fromLocal8Bit(error.what()));
+        mProcess.restart(QString::fromLocal8Bit(error.what()));
         return;
     }
     connect(mLink, &WorkerLink::messagesArrived, this, &WorkerSession::handleIncoming);
@@ -278,7 +278,7 @@ void WorkerSession::connectTo(const QString& endpoint)
             {
                 if (link == mLink)
                 {
-                    mProcess.replace(QStringLiteral("It did not answer any more."));
+                    mProcess.restart(QStringLiteral("It did not answer any more."));
                 }
             });
     const QString version = QStringLiteral(LAMPBLACK_VERSION);
@@ -333,7 +333,7 @@ void WorkerSession::handleIncoming()
                 }
                 else if constexpr (std::is_same_v<Kind, protocol::Bye>)
                 {
-                    mProcess.replace(QStringLiteral("It left: ") + message.reason);
+                    mProcess.restart(QStringLiteral("It left: ") + message.reason);
                 }
                 else if constexpr (std::is_same_v<Kind, protocol::Welcome> ||
                                    std::is_same_v<Kind, protocol::NeedFrame> ||

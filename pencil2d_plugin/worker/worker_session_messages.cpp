@@ -28,7 +28,7 @@ void WorkerSession::sendMessage(const protocol::Message& message, const QImage& 
 {
     if (mGreeted && !mLink->send({message, pixels}))
     {
-        mProcess.replace(QStringLiteral("It did not read any more."));
+        mProcess.restart(QStringLiteral("It did not read any more."));
     }
 }
 
@@ -237,7 +237,7 @@ void WorkerSession::handle(const protocol::Error& error)
     {
         if (mGreeted)
         {
-            mProcess.replace(QStringLiteral("It forgot us."));
+            mProcess.restart(QStringLiteral("It forgot us."));
         }
         return;
     }
@@ -262,7 +262,7 @@ void WorkerSession::handle(const protocol::Error& error)
     Q_EMIT problem({error.what, error.remedy, details});
     if (error.fatal)
     {
-        mProcess.replace(error.what);
+        mProcess.restart(error.what);
     }
 }
 
