@@ -9,15 +9,19 @@ from pathlib import Path
 
 import pytest
 
+from lampblack.cache import ArrayCache
 from lampblack.drawing import load_picture
 from lampblack.errors import RenderError
+from lampblack.pipeline import Pipeline
+from lampblack.preview import PreviewState
 from lampblack.protocol import Cancel, Done, ErrorMessage, FrameDone, Render
 from lampblack.render import RenderRequest
 from lampblack.scene import default_scene
 from lampblack.service.client import Client
-from lampblack.service.jobs import MAX_WAITING
+from lampblack.service.jobs import MAX_WAITING, Jobs
 from support.command_line import files
 from support.drawings import draw_ball
+from support.preview_fakes import FakePredictor, FakeRenderer
 from support.served import Served
 
 SIZE = 64
@@ -162,3 +166,16 @@ def test_only_so_many_jobs_wait(served: Served, client: Client, tmp_path: Path) 
     error, _ = client.wait_for(ErrorMessage)
     assert error.code == "too_many_jobs"
     go_on.set()
+
+
+def test_closing_ends_the_thread_and_the_renderer(tmp_path: Path) -> None:
+    renderer = FakeRenderer()
+    pipeline = Pipeline(ArrayCache(tmp_path), predictor=FakePredictor(), renderer=renderer)
+    jobs = Jobs(PreviewState(), pipeline, lambda session, digest: None, lambda session, m: None)
+    thread = threading.Thread(target=jobs.run, daemon=True)
+    thread.start()
+    time.sleep(0.05)  # so that it waits
+    jobs.close()
+    thread.join(5)
+    assert not thread.is_alive()
+    assert not renderer.alive

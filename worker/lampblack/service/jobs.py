@@ -75,6 +75,7 @@ class Jobs:
     _waiting: deque[Job] = field(default_factory=deque)
     _current: Job | None = None
     _condition: threading.Condition = field(default_factory=threading.Condition)
+    _closing: bool = False
 
     @property
     def waiting(self) -> int:
@@ -100,7 +101,8 @@ class Jobs:
         self._cancel(lambda job: job.session == session and request in (None, job.message.request))
 
     def close(self) -> None:
-        """Drop all jobs. The thread ends together with the preview."""
+        """Drop all jobs, and end the thread."""
+        self._closing = True
         self._cancel(lambda job: True)
 
     def _cancel(self, which: Callable[[Job], bool]) -> None:
@@ -112,11 +114,11 @@ class Jobs:
             self._condition.notify()
 
     def run(self) -> None:
-        """Render jobs until the preview closes."""
+        """Render jobs until closed."""
         while True:
             with self._condition:
-                self._condition.wait_for(lambda: self._waiting or self.previews.closing)
-                if self.previews.closing:
+                self._condition.wait_for(lambda: self._waiting or self._closing)
+                if self._closing:
                     break
                 job = self._current = self._waiting.popleft()
             self.state = "working"
