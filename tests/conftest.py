@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from lampblack.cache import ArrayCache
 from lampblack.cli import main
-from lampblack.drawing import save_picture
+from lampblack.drawing import Drawing, save_picture
 from lampblack.pipeline import Pipeline
 from lampblack.render import LightPasses, Passes
 from support.command_line import Outcome, Run
@@ -108,6 +109,10 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         dark = np.zeros((1, 1, 3), np.float32)
         return Passes((), LightPasses(dark, dark))
 
+    def height(self: Pipeline, drawing: Drawing, *given: object) -> NDArray[np.float32]:
+        return np.zeros(drawing.mask.shape, np.float32)
+
+    monkeypatch.setattr(Pipeline, "height", height)
     monkeypatch.setattr("lampblack.prepared.PreparedDrawing.surface", lambda *given: None)
     monkeypatch.setattr(Pipeline, "light", light)
     monkeypatch.setattr(
