@@ -1,7 +1,9 @@
 # make demo: light the example. make pencil2d [PROJECT=file.pclx]: open Pencil2D with the lamp tool.
 # make test: check everything. Each installs first what it needs, in the versions of requirements/.
 # make lock: renew those. make test-newest: check everything with the newest versions instead.
-.PHONY: demo pencil2d install uninstall test test-newest test-slow check format tidy environment lock plugin schema clean
+.PHONY: demo pencil2d install uninstall environment lock plugin schema format tidy clean \
+    check check-python check-types check-cpp build-dev build-asan \
+    test test-environment test-cpp test-asan test-python test-newest test-slow
 
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -34,13 +36,28 @@ install: plugin
 uninstall:
 	scripts/desktop.sh uninstall
 
-test: check
+# The checks and the builds go side by side. The tests, some of which watch the clock, go one kind after
+# the other, and each kind shares the machine out by itself.
+test: test-environment
+	@$(MAKE) --no-print-directory -j2 check-python check-types check-cpp build-dev build-asan
+	@$(MAKE) --no-print-directory test-cpp
+	@$(MAKE) --no-print-directory test-asan
+	@$(MAKE) --no-print-directory test-python
+
+test-environment:
 	@scripts/environment.sh test
-	cmake --preset dev && cmake --build --preset dev
+
+build-dev build-asan: build-%: test-environment
+	cmake --preset $* >/dev/null && cmake --build --preset $*
+
+test-cpp: build-dev
 	LAMPBLACK_PYTHON=$(PYTHON_OF_WORKER) ctest --preset dev
-	cmake --preset asan && cmake --build --preset asan --target protocol_codec_vectors protocol_codec_fuzz protocol_planes
-	ctest --preset asan -R ^protocol_
-	$(BIN)/pytest -m "not slow"
+
+test-asan: build-asan
+	ctest --preset asan
+
+test-python: build-dev
+	$(BIN)/pytest -m "not slow" -n 2 --dist loadgroup --durations=30
 
 test-newest:
 	NEWEST=1 $(MAKE) test VENV=build/newest
@@ -51,9 +68,16 @@ test-slow: test
 CPP = $$(git ls-files 'pencil2d_plugin/*.h' 'pencil2d_plugin/*.cpp' 'tests/plugin/*.h' 'tests/plugin/*.cpp')
 
 check: environment
+	@$(MAKE) --no-print-directory -j2 check-python check-types check-cpp
+
+check-python:
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+
+check-types:
 	$(BIN)/mypy
+
+check-cpp:
 	$(BIN)/clang-format --dry-run --Werror $(CPP)
 
 format: environment

@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 
 PACKAGES="libgl1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxt6"
 PLUGIN="pencil2d cmake ninja-build g++ pkg-config qtbase5-dev libqt5svg5 cppzmq-dev libzmq3-dev libsodium-dev"
-TEST="xvfb openbox xdotool imagemagick fonts-dejavu-core"
+TEST="ccache xvfb openbox xdotool imagemagick fonts-dejavu-core"
 case "${1:-}" in
     plugin) PACKAGES="$PACKAGES $PLUGIN" ;;
     test) PACKAGES="$PACKAGES $PLUGIN $TEST" ;;
