@@ -18,7 +18,8 @@ constexpr int MaxErrors = 40;
 
 ShotJob::ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, SceneDocument& document,
                  QObject* parent)
-    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mLayer(layer), mDocument(document)
+    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mLayer(layer), mDocument(document),
+      mSaved(host, document)
 {
     connect(&feed, &FrameFeed::frameSent, this, &ShotJob::onFrameSent);
     connect(&feed, &FrameFeed::frameOutdated, this,
@@ -130,7 +131,7 @@ void ShotJob::generateSurfaces()
     QVector<int> frames;
     for (int frame = 1; frame <= mHost.frameCount(); ++frame)
         frames.append(frame);
-    begin(Kind::Surfaces, frames);
+    begin(Kind::Surfaces, frames, true);
 }
 
 void ShotJob::render(FrameRange range, bool hideSources)
@@ -157,7 +158,10 @@ void ShotJob::render(FrameRange range, bool hideSources)
     QVector<int> frames;
     for (int frame = range.first; frame <= range.last; ++frame)
         frames.append(frame);
-    begin(Kind::Render, frames);
+    const QString project = mSaved.path();
+    begin(Kind::Render, frames, project.isEmpty());
+    if (!project.isEmpty())
+        mRenderJob = mWorker.render(formatFrames(frames), outputPattern(), mScene.quality, project);
 }
 
 void ShotJob::cancel()
@@ -171,7 +175,7 @@ void ShotJob::cancel()
     finish(tr("Cancelled."));
 }
 
-void ShotJob::begin(Kind kind, const QVector<int>& frames)
+void ShotJob::begin(Kind kind, const QVector<int>& frames, bool sendDrawings)
 {
     mKind = kind;
     mRenderJob = 0;
@@ -180,6 +184,12 @@ void ShotJob::begin(Kind kind, const QVector<int>& frames)
     mErrors.clear();
     mRendered.clear();
     mOutdated.clear();
+    if (!sendDrawings)
+    {
+        mUnsent.clear();
+        Q_EMIT progressChanged(mKind, 0, mTotal, tr("Rendering"));
+        return;
+    }
     mUnsent = QSet<int>(frames.begin(), frames.end());
     Q_EMIT progressChanged(mKind, 0, mTotal, tr("Reading the drawings"));
     mFeed.requestAll(frames.first(), frames.last());

@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "plugin/frame_feed.h"
 #include "plugin/lit_layer.h"
+#include "plugin/saved_project.h"
 #include "worker/worker.h"
 
 #include <QSet>
@@ -33,7 +34,8 @@ public:
     void generateSurfaces();
 
     /// Render into "<project>_lit/<project>.0001.png" and so on, beside the project, then deliver the files
-    /// as the result layer. Files of earlier jobs that are up to date are not rendered again. With
+    /// as the result layer. A saved project is rendered from its file, just as the command line does it;
+    /// with unsaved changes, the drawings are. Files that are up to date are not rendered again. With
     /// `hideSources` the lit layers are hidden if the result layer covers the whole animation.
     void render(FrameRange range, bool hideSources);
 
@@ -49,7 +51,7 @@ Q_SIGNALS:
 
 private:
     void connectWorker();
-    void begin(Kind kind, const QVector<int>& frames);
+    void begin(Kind kind, const QVector<int>& frames, bool sendDrawings);
     void onFrameSent(int frame);
     void onAllFramesSent();
     void onRenderDone(const QString& outcome);
@@ -65,6 +67,7 @@ private:
     FrameFeed& mFeed;
     LitLayer& mLayer;
     SceneDocument& mDocument;
+    SavedProject mSaved;
     Kind mKind = Kind::None;
     QVector<int> mFrames; ///< frames of this job
     QSet<int> mUnsent;    ///< frames that the worker does not have yet

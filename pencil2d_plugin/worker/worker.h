@@ -79,9 +79,11 @@ public:
 
     virtual void requestPalette(int frame) = 0;
 
-    /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png. Returns the job's number.
+    /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png: of the drawings that were put, or,
+    /// with a `project`, of that file. Files of a project that are up to date are kept. Returns the job's
+    /// number.
     virtual quint64 render(const QString& frames, const QString& output, Quality quality,
-                           bool keepFinished = false) = 0;
+                           const QString& project = {}) = 0;
     virtual void cancelRender(quint64 job) = 0;
 
 Q_SIGNALS:

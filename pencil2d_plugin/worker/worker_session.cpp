@@ -195,7 +195,7 @@ void WorkerSession::requestPalette(int frame)
 }
 
 quint64 WorkerSession::render(const QString& frames, const QString& output, Quality quality,
-                              bool keepFinished)
+                              const QString& project)
 {
     const std::optional<QVector<int>> list = parseFrames(frames);
     if (!list)
@@ -218,7 +218,7 @@ quint64 WorkerSession::render(const QString& frames, const QString& output, Qual
     job.frames = *list;
     job.output = output;
     job.quality = quality;
-    job.keepFinished = keepFinished;
+    job.project = project;
     job.scene = mScene;
     job.lastPut = mFrameStore.lastPut();
     job.total = list->size();

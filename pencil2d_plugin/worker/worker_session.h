@@ -41,7 +41,7 @@ public:
     void cancelPreview() override;
     void requestPalette(int frame) override;
     quint64 render(const QString& frames, const QString& output, Quality quality,
-                   bool keepFinished = false) override;
+                   const QString& project = {}) override;
     void cancelRender(quint64 job) override;
 
     qint64 workerPid() const { return mProcess.pid(); } ///< 0 while there is none

@@ -139,7 +139,8 @@ void WorkerSession::sendJobs()
         }
         job.request = ++mRequest;
         ++job.asked;
-        sendMessage(protocol::Render{mRequest, frames, job.output, job.quality, job.keepFinished});
+        sendMessage(
+            protocol::Render{mRequest, frames, job.output, job.quality, !job.project.isEmpty(), job.project});
         if (other)
         {
             sendScene();

@@ -73,7 +73,7 @@ SAMPLES: dict[Sender, list[Tree]] = {
         {"type": "preview", **LOOK},
         {"type": "view", **LOOK, "show": "normals"},
         {"type": "get_palette", "request": 4, "frame": 12},
-        RENDER | {"quality": "low", "keep_finished": True},
+        RENDER | {"quality": "low", "keep_finished": True, "project": "/shots/walk.pclx"},
         {"type": "cancel", "request": 5},
         {"type": "bye", "reason": "The window was closed."},
     ],

@@ -11,7 +11,7 @@ import msgspec
 import pytest
 import typer
 
-from lampblack.choices import FileFormat, LayerRole, QualityName, SolverName
+from lampblack.choices import FileFormat, FrameLayers, LayerRole, QualityName, SolverName
 from lampblack.cli.app import COMMANDS, DATASET_COMMANDS
 from lampblack.cli.lazy import LazyCommand
 from lampblack.cli.options import OPTIONS, with_settings
@@ -103,6 +103,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         solver=random.choice(get_args(SolverName)),
         roles={name: random.choice(get_args(LayerRole)) for name in few()},
         camera=random.choice(texts),
+        layers=random.choice(get_args(FrameLayers)),
         steady=random.random() < 0.5,
         again=random.random() < 0.5,
     )

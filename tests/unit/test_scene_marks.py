@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
+from lampblack.drawing import decompose_drawing
 from lampblack.materials import MaterialTable
+from lampblack.prepared import PreparedDrawing
+from lampblack.preview.contribution import contributions_of
 from lampblack.render import LightPasses, Passes
 from lampblack.render.light_pass_cache import LightPassCache
 from lampblack.scene import Ambient, AreaLight, Floor, Material, Scene, default_scene
+from support.drawings import draw_ball
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,28 @@ def test_a_new_field_is_traced_again_by_itself(changed: dict[str, float], traced
     assert counter.traced == 3
     cache.complete(drawing, scene_with(**changed), counter)
     assert counter.traced == 3 + traced
+
+
+@pytest.mark.parametrize(
+    ("changed", "missing"),
+    [({}, 0), ({"light": 1}, 2), ({"floor": 1}, 6), ({"material": 1}, 6), ({"scene": 1}, 6)],
+)
+def test_a_preview_traces_a_new_field_again_too(changed: dict[str, float], missing: int) -> None:
+    """Two lights and the ambient light, on the character and on the floor."""
+    drawing = decompose_drawing(draw_ball(60))
+    flat = np.zeros(drawing.mask.shape, np.float32)
+    box = (0.0, 0.0, 60.0, 60.0)
+    prepared = PreparedDrawing(
+        digest="ball", detail="full", size=(60, 60), step=1, layers=drawing, scale=1.0,
+        height=flat, mask=drawing.mask, normals=None, box=box,
+    )  # fmt: skip
+
+    def keys(scene: Scene) -> set[Hashable]:
+        return {contribution.key for contribution in contributions_of(scene, prepared, box)}
+
+    before = keys(scene_with())
+    assert len(before) == 6
+    assert len(keys(scene_with(**changed)) - before) == missing
 
 
 def test_a_new_field_goes_to_the_renderer() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -11,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from lampblack.scene import LightKey, default_scene, encode_scene
+from support.command_line import Run
 from support.lamp import SIZE, keep, light_up, project_in, sidecar
 from support.window import Display, Pencil2D, pencil2d, wait_until
 
@@ -63,6 +66,16 @@ def render(window: Pencil2D) -> None:
     wait_until(lambda: window.value("lampblack.render", "enabled"), "the job to end", 400)
 
 
+def assert_rendered_alike(run: Run, project: Path, folder: Path, last: int) -> None:
+    """``lampblack render`` writes the files that the window wrote, to the last byte."""
+    options = ("--layers", "lit", "--frames", f"1-{last}")
+    assert run("render", project, "-o", folder / "command line", *options).code == 0
+    for number in range(1, last + 1):
+        name = f"walk.{number:04d}.png"
+        mine, theirs = (folder / made / name for made in ("walk_lit", "command line"))
+        assert mine.read_bytes() == theirs.read_bytes(), name
+
+
 def premultiplied(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
     return picture[..., :3] * (picture[..., 3:] / 255.0)
 
@@ -93,6 +106,32 @@ def test_lit_layer_is_in_the_saved_project(display: Display, tmp_path: Path) -> 
         assert np.abs(premultiplied(lit[frame]) - premultiplied(made)).max() <= 2
     now = keys(project, "Lamplighter")
     assert all(np.array_equal(now[frame], drawn[frame]) for frame in drawn)
+
+
+def test_a_moving_camera_and_keyed_lights_are_rendered_as_on_the_command_line(
+    display: Display, tmp_path: Path, run: Run
+) -> None:
+    project = looped_project_in(tmp_path)
+    still = b'<camera frame="1" r="0" s="1" dx="0" dy="0" />'
+    moved = still + b'<camera frame="5" r="8" s="1.25" dx="24" dy="-10" />'
+    with zipfile.ZipFile(project) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    assert still in files["main.xml"]
+    files["main.xml"] = files["main.xml"].replace(still, moved)
+    with zipfile.ZipFile(project, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    scene = default_scene(*SIZE)
+    light = scene.lights[0]
+    keys = tuple(LightKey(n, x, 200, light.z, light.size) for n, x in ((1, 60), (5, 580)))
+    lights = (replace(light, keys=keys), replace(light, x=320.0, colour="#80a0ff", power=0.5))
+    sidecar(project).write_bytes(encode_scene(replace(scene, lights=lights)))
+    with pencil2d(display, tmp_path / "window", project) as window:
+        window.set("lampblack.panel.range", "currentIndex", 1)
+        light_up(window)
+        render(window)
+        keep(window, "moving camera")
+    assert_rendered_alike(run, project, tmp_path, LAST)
 
 
 def test_closing_asks_for_the_layer(display: Display, tmp_path: Path) -> None:

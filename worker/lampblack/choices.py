@@ -15,6 +15,9 @@ SolverName = Literal["direct", "adam"]
 LayerRole = Literal["character", "line", "background"]
 """What a layer of a project is."""
 
+FrameLayers = Literal["all", "lit"]
+"""The layers of a project that its frames show."""
+
 DEFAULT_GRIDS = 0
 """Grids of tiles whose predicted normals are averaged; 0 predicts the whole character at once."""
 

@@ -42,7 +42,8 @@ struct Patterns
     QRegularExpression digest{QStringLiteral(R"(^[0-9a-f]{40}$(?!\n))")};
     QRegularExpression frames{QStringLiteral(
         R"(^[0-9]{1,6}(-[0-9]{1,6}(x[0-9]{1,6})?)?(,[0-9]{1,6}(-[0-9]{1,6}(x[0-9]{1,6})?)?)*$(?!\n))")};
-    QRegularExpression output{QStringLiteral(R"(^/[^%\x00-\x1f\x7f]*%0[1-9]d\.png$(?!\n))")};
+    QRegularExpression output{QStringLiteral(R"(^/[^%\x00-\x1f\x7f]*%0[1-9]d\.(png|exr)$(?!\n))")};
+    QRegularExpression project{QStringLiteral(R"(^(/[^\x00-\x1f\x7f]*\.pclx)?$(?!\n))")};
     QRegularExpression session{QStringLiteral(R"(^[0-9a-f]{32}$(?!\n))")};
     QRegularExpression colour{QStringLiteral(R"(^#[0-9a-f]{6}$(?!\n))")};
     QRegularExpression code{QStringLiteral(R"(^[a-z][a-z0-9_]*$(?!\n))")};
@@ -138,6 +139,7 @@ template <class Fields> void describe(Fields& fields, Render& value)
     fields.text("output", value.output, 0, 1024, patterns().output);
     fields.choice("quality", value.quality, QualityChoices, Need::Optional);
     fields.boolean("keep_finished", value.keepFinished, Need::Optional);
+    fields.text("project", value.project, 0, 1024, patterns().project, Need::Optional);
 }
 
 template <class Fields> void describe(Fields& fields, Cancel& value)

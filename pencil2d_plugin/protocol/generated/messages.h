@@ -17,7 +17,7 @@ namespace lampblack::protocol
 {
 
 constexpr int Major = 1;
-constexpr int Minor = 0;
+constexpr int Minor = 1;
 
 enum class Role
 {
@@ -165,6 +165,8 @@ struct Render
     QString output = {}; ///< absolute path with the frame number as %04d: /shots/a_v001.%04d.png
     Quality quality = Quality::Final;
     bool keepFinished = false; ///< keep files that are up to date
+    QString project = {};      ///< absolute path of a project: its saved frames are rendered instead of the
+                               ///< announced drawings, through its first camera, with the lit layers only
 };
 
 /// End the viewport or a job. A job answers done; unknown and ended requests are ignored.

@@ -31,6 +31,7 @@ struct Shot
         if (project.open(QFile::WriteOnly))
             project.write("as it was");
         document.reset(defaultScene(QSize(400, 300)));
+        host.mModified = true;
     }
 
     QTemporaryDir folder;
@@ -72,6 +73,47 @@ private Q_SLOTS:
         QFile backup(shot.folder.filePath(QStringLiteral("walk.backup.pclx")));
         QVERIFY(backup.open(QFile::ReadOnly));
         QCOMPARE(backup.readAll(), QByteArray("as it was"));
+    }
+
+    void savedProjectIsRenderedFromItsFile()
+    {
+        Shot shot;
+        Q_EMIT shot.host.projectOpened(shot.host.mProject);
+        Q_EMIT shot.host.layersChanged();
+        shot.host.mModified = false;
+        shot.job.render({1, 8}, true);
+        QCOMPARE(shot.worker.mProject, shot.host.mProject);
+        QCOMPARE(shot.worker.mFrames, QStringLiteral("1-8"));
+        QVERIFY(shot.worker.mPut.isEmpty());
+        shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        shot.worker.endJob();
+        QTRY_COMPARE(shot.ended.size(), 1);
+        QCOMPARE(shot.host.mDelivered.size(), 8);
+
+        // The result layer, and the sources that are hidden behind it, are no change to what is lit.
+        shot.job.render({1, 8}, true);
+        QCOMPARE(shot.worker.mProject, shot.host.mProject);
+    }
+
+    void unsavedDrawingsAreRenderedAsTheyAre()
+    {
+        Shot shot;
+        Q_EMIT shot.host.layersChanged();
+        shot.job.render({1, 8}, false);
+        QVERIFY(shot.worker.mProject.isEmpty());
+        QCOMPARE(shot.worker.mPut.size(), 8);
+        shot.job.cancel();
+
+        // Pencil2D does not call a deleted or hidden layer a change.
+        shot.host.mModified = false;
+        shot.host.mLayers.last().visible = false;
+        Q_EMIT shot.host.layersChanged();
+        shot.job.render({1, 8}, false);
+        QVERIFY(shot.worker.mProject.isEmpty());
+        shot.job.cancel();
+        Q_EMIT shot.host.projectSaved(shot.host.mProject);
+        shot.job.render({1, 8}, false);
+        QCOMPARE(shot.worker.mProject, shot.host.mProject);
     }
 
     void partJoinsWhatIsThere()
@@ -212,6 +254,7 @@ private Q_SLOTS:
         shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
         shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
+        shot.host.mModified = false; // Pencil2D does not count the new layer
         for (const auto answer : {QMessageBox::Cancel, QMessageBox::Save})
         {
             QString question;

@@ -80,7 +80,7 @@ public:
         Q_EMIT layerDelivered(name);
     }
     QString projectPath() const override { return mProject; }
-    bool isModified() const override { return false; }
+    bool isModified() const override { return mModified; }
     void guardLeaving(const std::function<bool()>& mayLeave) override { mMayLeave = mayLeave; }
     bool openProject(const QString&) override { return false; }
     bool saveProject() override
@@ -126,6 +126,7 @@ public:
     QString mStatus;
     std::optional<QTransform> mView = QTransform();
     QColor mPaper = Qt::white;
+    bool mModified = false;
     QVector<Layer> mLayers;
     QVector<Ability> mCannot;
     int mFrame = 1;

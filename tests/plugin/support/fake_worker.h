@@ -41,11 +41,13 @@ public:
     }
     void cancelPreview() override { ++mPreviewsCancelled; }
     void requestPalette(int frame) override { mPalettes.append(frame); }
-    quint64 render(const QString& frames, const QString& output, Quality quality, bool) override
+    quint64 render(const QString& frames, const QString& output, Quality quality,
+                   const QString& project) override
     {
         mFrames = frames;
         mOutput = output;
         mQuality = quality;
+        mProject = project;
         return ++mJob;
     }
     void cancelRender(quint64) override { ++mCancelled; }
@@ -93,6 +95,7 @@ public:
     QString mFrames; ///< of the last job, as are the next three
     QString mOutput;
     Quality mQuality = Quality::Low;
+    QString mProject; ///< that is rendered from its file
     quint64 mJob = 0;
     int mCancelled = 0;
 };

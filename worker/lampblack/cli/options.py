@@ -67,6 +67,9 @@ OPTIONS: dict[str, Any] = {
     "camera": typer.Option(
         "--camera", metavar="LAYER", help="Camera layer of the project. Default: the first one."
     ),
+    "layers": typer.Option(
+        "--layers", help="Layers of a project that the frames show: all, or only the lit ones."
+    ),
     "steady": typer.Option(
         "--steady/--no-steady", help="Smooth normals over neighbouring drawings, against flicker."
     ),

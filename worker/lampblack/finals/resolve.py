@@ -52,26 +52,30 @@ class ResolvedJob(ResolvedShot):
     again: bool
 
 
-def resolve_job(settings: RenderSettings) -> ResolvedJob:
+def resolve_job(settings: RenderSettings, scene: Scene | None = None) -> ResolvedJob:
     """Resolve ``settings``. Impossible jobs are refused before any work.
+
+    Args:
+        scene: in place of a scene file.
 
     Raises:
         LampblackError: an input is missing or malformed, or a source would be overwritten.
     """
     targets = Targets(settings.output, settings.format)
-    resolved = resolve_shot(settings)
+    resolved = resolve_shot(settings, scene)
     targets.prepare(resolved.frames, resolved.sources)
     options = PipelineOptions(settings.grids, settings.solver)
     return ResolvedJob(**vars(resolved), targets=targets, options=options, again=settings.again)
 
 
-def resolve_shot(settings: RenderSettings) -> ResolvedShot:
+def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> ResolvedShot:
     """Resolve the inputs of ``settings``, without its output.
 
     Raises:
         LampblackError: an input is missing or malformed.
     """
-    scene = None if settings.scene is None else read_scene(Path(settings.scene))
+    if scene is None and settings.scene is not None:
+        scene = read_scene(Path(settings.scene))
     shot: Shot
     if any(is_project(path) for path in settings.inputs):
         scene = scene or _sidecar(settings.inputs[0])
@@ -108,7 +112,7 @@ def _project_shot(settings: RenderSettings, scene: Scene | None) -> ProjectShot:
         )
     project, archive = read_project(settings.inputs[0])
     roles = {**(roles_of(scene) if scene is not None else {}), **settings.roles}
-    return ProjectShot(project, archive, roles, settings.camera)
+    return ProjectShot(project, archive, roles, settings.camera, settings.layers)
 
 
 def _chosen(frames: Sequence[ShotFrame], text: str | None) -> list[ShotFrame]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from ..choices import DEFAULT_GRIDS, FileFormat, LayerRole, QualityName, SolverName
+from ..choices import DEFAULT_GRIDS, FileFormat, FrameLayers, LayerRole, QualityName, SolverName
 
 
 class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
@@ -26,6 +26,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         solver: method of inflation.
         roles: roles of a project's layers by name, in place of those in the scene.
         camera: camera layer of a project; None is the first camera.
+        layers: layers of a project that the frames show: all, or only the lit ones.
         steady: whether normals pass the temporal filter.
         again: whether frames whose files are up to date are rendered again.
     """
@@ -44,6 +45,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     solver: SolverName = "direct"
     roles: dict[str, LayerRole] = {}
     camera: str | None = None
+    layers: FrameLayers = "all"
     steady: bool = True
     again: bool = False
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Affine, look_through, scene_in_view
+from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import ProjectError
 from ..scene import Canvas, Scene
@@ -36,17 +37,25 @@ class ProjectShot:
     Args:
         roles: roles of layers by name; see ``stack_layers``.
         camera: the camera's name; None is the first camera.
+        layers: that the frames show: all, or only the lit ones.
 
     Raises:
         ProjectError: there is nothing to light, no such camera, or its view is too large.
     """
 
     def __init__(
-        self, project: Project, archive: Archive, roles: Roles, camera: str | None = None
+        self,
+        project: Project,
+        archive: Archive,
+        roles: Roles,
+        camera: str | None = None,
+        layers: FrameLayers = "all",
     ) -> None:
         self._camera = _choose(project, camera)
         self.canvas = Canvas(self._camera.width, self._camera.height)
         self._stack = stack_layers(project, roles)
+        if layers == "lit":
+            self._stack = replace(self._stack, below=(), above=())
         self.region = _region(self._camera, project.length)
         origin = self._camera.width // 2, self._camera.height // 2
         self._painter = LayerPainter(archive, self.region, origin, VectorPictures(archive, origin))

@@ -29,12 +29,21 @@ class Render(Message, frozen=True, kw_only=True):
     output: Annotated[
         Path,
         Meta(
-            pattern=r"^/[^%\x00-\x1f\x7f]*%0[1-9]d\.png$(?!\n)",
+            pattern=r"^/[^%\x00-\x1f\x7f]*%0[1-9]d\.(png|exr)$(?!\n)",
             description="absolute path with the frame number as %04d: /shots/a_v001.%04d.png",
         ),
     ]
     quality: QualityName = "final"
     keep_finished: Annotated[bool, Meta(description="keep files that are up to date")] = False
+    project: Annotated[
+        Path,
+        Meta(
+            pattern=r"^(/[^\x00-\x1f\x7f]*\.pclx)?$(?!\n)",
+            description="absolute path of a project: its saved frames are rendered instead of the "
+            "announced drawings, through its first camera, with the lit layers only",
+            extra_json_schema={"x-unit": "path", "x-since": "1.1"},
+        ),
+    ] = ""
 
 
 class Progress(Message, frozen=True, kw_only=True):

@@ -129,7 +129,7 @@ def _render(service: Service, session: Session, message: Render, planes: Planes)
         service.send(session, stale)
         return
     numbers = parse_frames(message.frames)
-    known = [number for number in numbers if number in session.frames]
+    known = numbers if message.project else [n for n in numbers if n in session.frames]
     if session.scene is None:
         service.send(session, error_message(ErrorCode.NO_SCENE, request=message.request))
     elif not known:

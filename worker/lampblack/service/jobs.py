@@ -16,8 +16,9 @@ from ..errors import (
     RenderRestartedError,
 )
 from ..finals.render_shot import RenderListener, render_shot
-from ..finals.resolve import ResolvedJob
+from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.scene_overrides import SceneOverrides
+from ..finals.settings import RenderSettings
 from ..finals.targets import Targets
 from ..normals.temporal.neighbours import REACH
 from ..pipeline import Pipeline
@@ -156,8 +157,21 @@ class Jobs:
         )
 
     def _resolve(self, job: Job) -> ResolvedJob:
-        """Raises OutputError: files cannot be written there."""
+        """Raises OutputError: files cannot be written there. LampblackError: the project cannot be
+        read."""
         message = job.message
+        if message.project:
+            settings = RenderSettings(
+                inputs=(message.project,),
+                output=message.output,
+                quality=message.quality,
+                frames=message.frames,
+                layers="lit",
+                again=not message.keep_finished,
+            )
+            resolved = resolve_job(settings, job.scene)
+            job.frames = [frame.number for frame in resolved.frames if frame.number is not None]
+            return resolved
         shot = SessionShot(
             job.contents,
             job.scene.canvas,
