@@ -33,7 +33,12 @@ Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
                 if (frame == mHost.currentFrame() && mTool->isActive())
                     mWorker->requestPalette(frame);
             });
-    connect(&host, &Host::projectOpened, this, [this] { mColourPixels.clear(); });
+    connect(&host, &Host::projectOpened, this,
+            [this](const QString& path)
+            {
+                mColourPixels.clear();
+                mProjectPath = path;
+            });
     connectJobs();
 }
 

@@ -29,6 +29,7 @@ class Studio : public QObject
     Q_PROPERTY(qulonglong sentRevision READ sentRevision)   ///< revision of the scene last sent
     Q_PROPERTY(qulonglong shownRevision READ shownRevision) ///< revision of the scene in the shown picture
     Q_PROPERTY(bool settled READ isSettled)                 ///< the shown picture is converged and up to date
+    Q_PROPERTY(QString project READ project)                ///< path of the project last opened
     Q_PROPERTY(QVariantList lightPlaces READ
                    lightPlaces) ///< [x, y] of each light at the current frame, canvas pixels
 
@@ -39,6 +40,7 @@ public:
     qulonglong sentRevision() const { return mSentRevision; }
     qulonglong shownRevision() const { return mShownImage.revision; }
     bool isSettled() const;
+    QString project() const { return mProjectPath; }
     QVariantList lightPlaces() const;
 
     /// Remove everything from the window and end the worker.
@@ -63,6 +65,7 @@ private:
     std::unique_ptr<ProjectScene> mProject;
     DockRoom mMaterialsRoom;
     QMap<QString, quint64> mColourPixels; ///< most pixels that each flat colour had in one frame
+    QString mProjectPath;
     qulonglong mSentRevision = 0;
     PreviewImage mShownImage;
 };

@@ -50,8 +50,8 @@ class Canvas:
     def crop(self, x: float, y: float, width: float, height: float) -> NDArray[np.uint8]:
         """A screenshot of a part of the canvas."""
         (left, top), (right, bottom) = self.screen(x, y), self.screen(x + width, y + height)
-        picture = self._window.display.screenshot()
-        return picture[round(top) : round(bottom), round(left) : round(right)]
+        left, top, right, bottom = map(round, (left, top, right, bottom))
+        return self._window.display.screenshot(left, top, right - left, bottom - top)
 
 
 def keep(window: Pencil2D, name: str) -> None:
@@ -66,7 +66,7 @@ def settled(window: Pencil2D) -> None:
 
 def light_up(window: Pencil2D) -> None:
     window.click("lampblackButton")
-    wait_until(lambda: window.value("lampblackButton", "checked"), "the lamp in use", 10)
+    wait_until(lambda: window.value("lampblackButton", "checked"), "the lamp in use")
     settled(window)
 
 

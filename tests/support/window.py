@@ -6,7 +6,6 @@ Mouse and keys go through the X server (xdotool); where things stand is told by 
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import shutil
@@ -22,7 +21,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from support.paths import BUILD
 
@@ -86,14 +84,14 @@ class Display:
         )  # fmt: skip
         return ran.stdout
 
-    def screenshot(self) -> NDArray[np.uint8]:
-        """(H, W, 3) uint8, sRGB: the whole screen."""
+    def screenshot(self, left: int, top: int, width: int, height: int) -> NDArray[np.uint8]:
+        """(H, W, 3) uint8, sRGB: that part of the screen."""
+        part = ["-crop", f"{width}x{height}+{left}+{top}", "-depth", "8", "rgb:-"]
         ran = subprocess.run(
-            ["import", "-silent", "-window", "root", "png:-"],
+            ["import", "-silent", "-window", "root", *part],
             env=self.environment, check=True, capture_output=True, timeout=30,
         )  # fmt: skip
-        with Image.open(io.BytesIO(ran.stdout)) as picture:
-            return np.asarray(picture.convert("RGB"))
+        return np.frombuffer(ran.stdout, np.uint8).reshape(height, width, 3)
 
 
 class Pencil2D:
@@ -118,11 +116,11 @@ class Pencil2D:
             Path(self._socket_name).unlink()
         keys = "lampblack,lampblackprobe" if plugin else "lampblackprobe"
         environment = {
-            **display.environment,
+            **os.environ,
+            "DISPLAY": display.name,
             "HOME": str(home),
             "TMPDIR": str(temporary),
             "XDG_RUNTIME_DIR": str(temporary),
-            "XDG_CACHE_HOME": str(folder / "cache"),
             "XDG_CONFIG_HOME": str(home / ".config"),
             "LC_ALL": "C.UTF-8",
             "QT_PLUGIN_PATH": str(PLUGINS),
@@ -146,6 +144,17 @@ class Pencil2D:
         self.display.do("windowsize", "--sync", self.window, *(round(n * scale) for n in WINDOW))
         self.display.do("windowmove", "--sync", self.window, 2, 20)
         self.display.do("windowactivate", "--sync", self.window)
+
+    def open(self, project: Path) -> None:
+        """Put the lamp away and open another project, as a file manager would ask for it."""
+        self.trigger("actionSave")
+        wait_until(
+            lambda: not self.of_class("MainWindow2")["properties"]["windowModified"], "saving"
+        )
+        self.display.do("windowactivate", "--sync", self.window)
+        self.click("pencilButton")
+        assert self._ask({"do": "open", "path": str(project)})["done"]
+        wait_until(lambda: self.value("lampblack", "project") == str(project), "the project")
 
     def close(self) -> None:
         """End it without a question, if it is still there, and see that it had not died."""
@@ -202,11 +211,10 @@ class Pencil2D:
     def screenshot(self) -> NDArray[np.uint8]:
         """(H, W, 3) uint8, sRGB: the screen as far as the window reaches."""
         width, height = (round(n * self._scale) + 30 for n in WINDOW)
-        return self.display.screenshot()[:height, :width]
+        return self.display.screenshot(0, 0, width, height)
 
     def canvas_picture(self) -> NDArray[np.uint8]:
-        left, top, width, height = self.rect("ScribbleArea")
-        return self.display.screenshot()[top : top + height, left : left + width]
+        return self.display.screenshot(*self.rect("ScribbleArea"))
 
     def click(self, name: str, button: int = 1) -> None:
         """Click in the middle of a widget, once it stands still: docks are laid out late."""
@@ -238,7 +246,8 @@ class Pencil2D:
     def _main_window(self, title: str) -> str:
         # A window that comes or goes meanwhile makes the search fail: look again.
         with suppress(subprocess.CalledProcessError):
-            return self.display.do("search", "--onlyvisible", "--name", title).split()[0]
+            ours = ("--all", "--pid", self.process.pid, "--onlyvisible", "--name", title)
+            return self.display.do("search", *ours).split()[0]
         return ""
 
     def _connect(self) -> socket.socket:
@@ -270,3 +279,29 @@ def pencil2d(
     """A running Pencil2D for the length of a block."""
     with closing(Pencil2D(display, folder, project, **options)) as program:
         yield program
+
+
+class SharedPencil2D:
+    """One Pencil2D for many tests: started for the first, closed after a test that failed."""
+
+    def __init__(self, display: Display, folder: Path) -> None:
+        self._display, self._folder = display, folder
+        self._program: Pencil2D | None = None
+        self._started = 0
+
+    def open(self, project: Path) -> Pencil2D:
+        """The running Pencil2D with that project, the lamp not in use."""
+        if self._program is None:
+            # A folder of its own: Pencil2D offers to recover what a killed one left.
+            folder = self._folder / str(self._started)
+            self._started += 1
+            self._program = Pencil2D(self._display, folder, project)
+        else:
+            self._program.open(project)
+        return self._program
+
+    def close(self) -> None:
+        """End it; the next ``open`` starts another."""
+        program, self._program = self._program, None
+        if program is not None:
+            program.close()

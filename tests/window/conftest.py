@@ -1,4 +1,4 @@
-"""A display for all tests of the window, and the example opened in it."""
+"""A display for all tests of the window, and one Pencil2D for those not about its start or end."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from support.lamp import project_in
-from support.window import Display, Pencil2D, pencil2d
+from support.window import Display, Pencil2D, SharedPencil2D
 
 
 @pytest.fixture(scope="session")
@@ -18,7 +18,27 @@ def display(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Display]:
     shown.close()
 
 
+@pytest.fixture(scope="session")
+def session_pencil2d(
+    display: Display, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[SharedPencil2D]:
+    shared = SharedPencil2D(display, tmp_path_factory.mktemp("pencil2d"))
+    yield shared
+    shared.close()
+
+
 @pytest.fixture
-def window(display: Display, tmp_path: Path) -> Iterator[Pencil2D]:
-    with pencil2d(display, tmp_path, project_in(tmp_path)) as program:
-        yield program
+def shared(
+    session_pencil2d: SharedPencil2D, request: pytest.FixtureRequest
+) -> Iterator[SharedPencil2D]:
+    """For a test that is not about starting or closing Pencil2D."""
+    failed = request.session.testsfailed
+    yield session_pencil2d
+    if request.session.testsfailed > failed:
+        session_pencil2d.close()
+
+
+@pytest.fixture
+def window(shared: SharedPencil2D, tmp_path: Path) -> Pencil2D:
+    """The example, in the shared Pencil2D."""
+    return shared.open(project_in(tmp_path))

@@ -12,7 +12,7 @@ from lampblack.scene import default_scene, encode_scene
 from support.lamp import SIZE, Canvas, brightness_of_sides, drag_light, keep, light_up, sidecar
 from support.lamp import project_in as example_in
 from support.projects import Picture, image, layer, png
-from support.window import Display, pencil2d
+from support.window import SharedPencil2D
 
 SKY, SIGN = (120, 190, 230), (90, 40, 120)
 SIGN_AT = (280, 560, 80, 60)
@@ -44,22 +44,22 @@ def staged_project_in(folder: Path) -> Path:
     return project
 
 
-def test_background_and_foreground_stay_as_drawn(display: Display, tmp_path: Path) -> None:
+def test_background_and_foreground_stay_as_drawn(shared: SharedPencil2D, tmp_path: Path) -> None:
     project = staged_project_in(tmp_path)
     scene = json.loads(encode_scene(default_scene(*SIZE)))
     scene["pencil2d_layers"] = {"Lamplighter": "character"}
     sidecar(project).write_text(json.dumps(scene))
-    with pencil2d(display, tmp_path, project) as window:
-        light_up(window)
-        canvas = Canvas(window)
-        keep(window, "background")
-        x, y, width, height = SIGN_AT
-        for corner in (canvas.crop(20, 640, 30, 30), canvas.crop(590, 640, 30, 30)):
-            assert (corner == SKY).all()
-        sign = canvas.crop(x + 4, y + 4, width - 8, height - 8)
-        assert (sign == SIGN).all()
-        left, right = brightness_of_sides(canvas)
-        drag_light(window, canvas, (600, 300))
-        now_left, now_right = brightness_of_sides(canvas)
-        assert now_right / now_left > 1.1 * right / left
-        assert (canvas.crop(x + 4, y + 4, width - 8, height - 8) == SIGN).all()
+    window = shared.open(project)
+    light_up(window)
+    canvas = Canvas(window)
+    keep(window, "background")
+    x, y, width, height = SIGN_AT
+    for corner in (canvas.crop(20, 640, 30, 30), canvas.crop(590, 640, 30, 30)):
+        assert (corner == SKY).all()
+    sign = canvas.crop(x + 4, y + 4, width - 8, height - 8)
+    assert (sign == SIGN).all()
+    left, right = brightness_of_sides(canvas)
+    drag_light(window, canvas, (600, 300))
+    now_left, now_right = brightness_of_sides(canvas)
+    assert now_right / now_left > 1.1 * right / left
+    assert (canvas.crop(x + 4, y + 4, width - 8, height - 8) == SIGN).all()

@@ -22,7 +22,7 @@ from support.lamp import (
     sidecar,
 )
 from support.registration import luminance
-from support.window import Display, Pencil2D, pencil2d, wait_until
+from support.window import Display, Pencil2D, SharedPencil2D, pencil2d, wait_until
 
 HERE = "lampblack.panel.keys.here"
 LEFT, RIGHT = (40, 300), (600, 300)
@@ -49,38 +49,38 @@ def sides_of(picture: Path) -> tuple[float, float]:
 
 
 def test_a_keyed_light_moves_in_the_window_as_on_the_command_line(
-    display: Display, tmp_path: Path, run: Run
+    shared: SharedPencil2D, tmp_path: Path, run: Run
 ) -> None:
     project = project_in(tmp_path)
     seen = {}
-    with pencil2d(display, tmp_path / "window", project) as window:
-        canvas = Canvas(window)
-        light_up(window)
-        drag_light(window, canvas, LEFT)
-        window.click(HERE)
-        settled(window)
-        seen[1] = brightness_of_sides(canvas)
-        step(window, 8)
-        assert place(window) == pytest.approx(LEFT, abs=2), "held after the only key"
-        drag_light(window, canvas, RIGHT)
-        seen[9] = brightness_of_sides(canvas)
-        keep(window, "keyed at 9")
-        step(window, -4)
-        between = place(window)
-        assert between == pytest.approx((320, 300), abs=2), "half way"
-        seen[5] = brightness_of_sides(canvas)
-        keep(window, "keyed at 5")
-        step(window, -1)
-        seen[4] = brightness_of_sides(canvas)
+    window = shared.open(project)
+    canvas = Canvas(window)
+    light_up(window)
+    drag_light(window, canvas, LEFT)
+    window.click(HERE)
+    settled(window)
+    seen[1] = brightness_of_sides(canvas)
+    step(window, 8)
+    assert place(window) == pytest.approx(LEFT, abs=2), "held after the only key"
+    drag_light(window, canvas, RIGHT)
+    seen[9] = brightness_of_sides(canvas)
+    keep(window, "keyed at 9")
+    step(window, -4)
+    between = place(window)
+    assert between == pytest.approx((320, 300), abs=2), "half way"
+    seen[5] = brightness_of_sides(canvas)
+    keep(window, "keyed at 5")
+    step(window, -1)
+    seen[4] = brightness_of_sides(canvas)
 
-        window.click("lampblack.panel.keys.next")
-        wait_until(lambda: place(window) == pytest.approx(RIGHT, abs=2), "the key at 9", 10)
-        window.key("ctrl+z")
-        wait_until(lambda: place(window) == pytest.approx(LEFT, abs=2), "no key at 9", 10)
-        window.key("ctrl+shift+z")
-        wait_until(lambda: place(window) == pytest.approx(RIGHT, abs=2), "the key again", 10)
-        window.trigger("actionSave")
-        wait_until(sidecar(project).exists, "the saved scene")
+    window.click("lampblack.panel.keys.next")
+    wait_until(lambda: place(window) == pytest.approx(RIGHT, abs=2), "the key at 9")
+    window.key("ctrl+z")
+    wait_until(lambda: place(window) == pytest.approx(LEFT, abs=2), "no key at 9")
+    window.key("ctrl+shift+z")
+    wait_until(lambda: place(window) == pytest.approx(RIGHT, abs=2), "the key again")
+    window.trigger("actionSave")
+    wait_until(sidecar(project).exists, "the saved scene")
 
     # Frames 1 to 4 show one drawing: there only the light has moved.
     towards_right = {frame: right - left for frame, (left, right) in seen.items()}

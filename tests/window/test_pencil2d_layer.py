@@ -15,7 +15,7 @@ from PIL import Image
 from lampblack.scene import LightKey, default_scene, encode_scene
 from support.command_line import Run
 from support.lamp import SIZE, keep, light_up, project_in, sidecar
-from support.window import Display, Pencil2D, pencil2d, wait_until
+from support.window import Display, Pencil2D, SharedPencil2D, pencil2d, wait_until
 
 LAST = 6
 """End of the loop. The example has key frames at 1, 3 and 5, the first two alike."""
@@ -80,21 +80,23 @@ def premultiplied(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
     return picture[..., :3] * (picture[..., 3:] / 255.0)
 
 
-def test_lit_layer_is_in_the_saved_project(display: Display, tmp_path: Path) -> None:
+def test_lit_layer_is_in_the_saved_project(shared: SharedPencil2D, tmp_path: Path) -> None:
     project = looped_project_in(tmp_path)
     untouched = project.read_bytes()
     drawn = keys(project, "Lamplighter")
-    with pencil2d(display, tmp_path / "window", project) as window:
-        window.set("lampblack.panel.range", "currentIndex", 1)
-        window.set("lampblack.panel.hide", "checked", True)
-        light_up(window)
-        render(window)
-        keep(window, "lit layer")
-        assert project.read_bytes() == untouched
-        assert project.with_name("walk.backup.pclx").read_bytes() == untouched
-        window.trigger("actionSave")
-        wait_until(lambda: layer_names(project)[-1] == "Lit", "the saved layer")
-        wait_until(lambda: sidecar(project).exists(), "the scene")
+    window = shared.open(project)
+    window.set("lampblack.panel.range", "currentIndex", 1)
+    window.set("lampblack.panel.hide", "checked", True)
+    light_up(window)
+    render(window)
+    keep(window, "lit layer")
+    assert project.read_bytes() == untouched
+    assert project.with_name("walk.backup.pclx").read_bytes() == untouched
+    window.trigger("actionSave")
+    wait_until(lambda: layer_names(project)[-1] == "Lit", "the saved layer")
+    wait_until(lambda: sidecar(project).exists(), "the scene")
+    window.set("lampblack.panel.range", "currentIndex", 0)
+    window.set("lampblack.panel.hide", "checked", False)
     assert layer_names(project) == ["Camera", "Lamplighter", "Lit"]
     lit = keys(project, "Lit")
     assert sorted(lit) == [1, 5, LAST + 1]

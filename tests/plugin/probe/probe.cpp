@@ -200,6 +200,13 @@ private:
             const QVariant value = request.value(QStringLiteral("value")).toVariant();
             return {{QStringLiteral("done"), object && object->setProperty(property.constData(), value)}};
         }
+        if (command == QLatin1String("open"))
+        {
+            const QString path = request.value(QStringLiteral("path")).toString();
+            return {{QStringLiteral("done"),
+                     QMetaObject::invokeMethod(qApp, "openFileRequested", Qt::QueuedConnection,
+                                               Q_ARG(QString, path))}};
+        }
         if (command == QLatin1String("entries"))
             return entries(qobject_cast<QMenu*>(named(name)));
         if (command == QLatin1String("stalls"))
