@@ -37,15 +37,17 @@ class Canvas:
 
     def __init__(self, window: Pencil2D, zoom: float = 1.0) -> None:
         self._window, self.zoom = window, zoom
-        left, top, width, height = window.rect("ScribbleArea")
-        self.middle = (left + width / 2, top + height / 2)
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """On the screen, as it is now: panels that open move it."""
+        left, top, width, height = self._window.rect("ScribbleArea")
+        return left + width / 2, top + height / 2
 
     def screen(self, x: float, y: float) -> tuple[float, float]:
         """Of a canvas pixel."""
-        return (
-            self.middle[0] + (x - SIZE[0] / 2) * self.zoom,
-            self.middle[1] + (y - SIZE[1] / 2) * self.zoom,
-        )
+        across, down = self.middle
+        return across + (x - SIZE[0] / 2) * self.zoom, down + (y - SIZE[1] / 2) * self.zoom
 
     def crop(self, x: float, y: float, width: float, height: float) -> NDArray[np.uint8]:
         """A screenshot of a part of the canvas."""
