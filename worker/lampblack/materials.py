@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .scene import Affects, Scene, traced_part
+from .affects import Affects, traced_part
+from .scene import Scene
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,12 +12,12 @@ import functools
 import inspect
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
-from enum import Enum
 from typing import Annotated, Any, TypeVar, get_type_hints
 
 import msgspec
 from msgspec import Meta
 
+from .affects import Affects, marks_of, traced_part
 from .choices import QualityName
 from .errors import SceneError
 
@@ -38,21 +38,6 @@ Strength = Annotated[float, Meta(ge=0, le=100)]
 Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
 Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
 KeyFrame = Annotated[int, Meta(ge=0, le=999_999, description="frame of the animation")]
-
-
-class Affects(Enum):
-    """What a field of the scene changes, where that is not the traced light itself.
-
-    A field without a mark shapes the traced light: whatever is kept is then traced again when
-    the field changes, so that a new field cannot show a stale picture.
-    """
-
-    COMPOSITE = "how traced light is composited"
-    GLOSS = "how much of the glossy light there is: other light stands in until it is traced"
-    SAMPLING = "how finely light is traced"
-    NOTHING = "nothing of the light"
-
-
 Extra = Annotated[dict[str, Any], Affects.NOTHING]
 
 
@@ -104,7 +89,7 @@ class AreaLight:
         bare = kind(x=0, y=0, z=0)
         untraced = {
             name: getattr(bare, name)
-            for name, mark in _marks(kind).items()
+            for name, mark in marks_of(kind).items()
             if mark in {Affects.COMPOSITE, Affects.NOTHING}
         }
         return replace(self, **untraced)
@@ -289,39 +274,6 @@ def normalize_schema(definition: dict[str, Any]) -> None:
 
 
 Node = TypeVar("Node")
-
-
-def traced_part(node: Any, *ignored: Affects) -> Hashable:
-    """All that shapes traced light in ``node``, a part of the scene, as a value to compare.
-
-    Args:
-        ignored: fields with these marks are left out as well.
-    """
-    if dataclasses.is_dataclass(node) and not isinstance(node, type):
-        leave = {Affects.COMPOSITE, Affects.NOTHING, *ignored}
-        return tuple(
-            (name, traced_part(getattr(node, name), *ignored))
-            for name, mark in _marks(type(node)).items()
-            if mark not in leave
-        )
-    if isinstance(node, tuple | list):
-        return tuple(traced_part(item, *ignored) for item in node)
-    if isinstance(node, dict):
-        return tuple((key, traced_part(node[key], *ignored)) for key in sorted(node))
-    return node  # type: ignore[no-any-return]
-
-
-@functools.cache
-def _marks(kind: type[Any]) -> dict[str, Affects | None]:
-    """The mark of each field of a part of the scene."""
-    hints = get_type_hints(kind, include_extras=True)
-    return {
-        one.name: next(
-            (m for m in getattr(hints[one.name], "__metadata__", ()) if isinstance(m, Affects)),
-            None,
-        )
-        for one in dataclasses.fields(kind)
-    }
 
 
 def _from_builtins(tree: Mapping[str, Any], kind: type[Node]) -> Node:
