@@ -28,7 +28,7 @@ from .prefetch import prefetch
 from .resolve import ResolvedJob
 from .tasks import Blank, Failed, Ready, RenderTask, StampedFrame, Traced, UpToDate, plan
 
-ATTEMPTS = 2
+ATTEMPTS = 3
 """Attempts to trace a drawing before its frames fail, because the renderer may crash."""
 OVERLAP_PX = 4_000_000
 """The stages of larger drawings do not overlap, to limit memory."""
@@ -160,7 +160,8 @@ class _Run:
                 self.check()
                 if attempt == ATTEMPTS:
                     return Failed(task.frames, error)
-                self.listener.on_renderer_lost(frame, error)
+                if attempt == 1:
+                    self.listener.on_renderer_lost(frame, error)
         raise AssertionError
 
     def finish(self, task: UpToDate | Failed | Blank | Traced) -> None:

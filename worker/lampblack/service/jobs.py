@@ -113,6 +113,8 @@ class Jobs:
             if self._current and self._current.cancelled:
                 self.pipeline.interrupt()
             self._condition.notify()
+        with self.previews.condition:
+            self.previews.condition.notify_all()  # a job that waits for planes
 
     def run(self) -> None:
         """Render jobs until closed."""
