@@ -111,7 +111,7 @@ def test_lit_layer_is_in_the_saved_project(shared: SharedPencil2D, tmp_path: Pat
 
 
 def test_a_moving_camera_and_keyed_lights_are_rendered_as_on_the_command_line(
-    display: Display, tmp_path: Path, run: Run
+    shared: SharedPencil2D, tmp_path: Path, run: Run
 ) -> None:
     project = looped_project_in(tmp_path)
     still = b'<camera frame="1" r="0" s="1" dx="0" dy="0" />'
@@ -128,11 +128,12 @@ def test_a_moving_camera_and_keyed_lights_are_rendered_as_on_the_command_line(
     keys = tuple(LightKey(n, x, 200, light.z, light.size) for n, x in ((1, 60), (5, 580)))
     lights = (replace(light, keys=keys), replace(light, x=320.0, colour="#80a0ff", power=0.5))
     sidecar(project).write_bytes(encode_scene(replace(scene, lights=lights)))
-    with pencil2d(display, tmp_path / "window", project) as window:
-        window.set("lampblack.panel.range", "currentIndex", 1)
-        light_up(window)
-        render(window)
-        keep(window, "moving camera")
+    window = shared.open(project)
+    window.set("lampblack.panel.range", "currentIndex", 1)
+    light_up(window)
+    render(window)
+    keep(window, "moving camera")
+    window.set("lampblack.panel.range", "currentIndex", 0)
     assert_rendered_alike(run, project, tmp_path, LAST)
 
 
