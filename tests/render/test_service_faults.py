@@ -198,9 +198,10 @@ def test_a_lost_worker_is_replaced_and_asks_for_what_it_needs(tmp_path: Path) ->
     assert sessions[0] != sessions[1]
 
 
-def test_nothing_stays_behind_when_the_parent_goes(tmp_path: Path) -> None:
-    runtime = tmp_path / "run"
-    runtime.mkdir()
+def test_nothing_stays_behind_when_the_parent_goes(
+    tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    runtime = tmp_path_factory.mktemp("run")  # a socket does not go into a folder of a long name
     environment = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "XDG_RUNTIME_DIR": str(runtime)}
     parent = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     worker = Worker(tmp_path, parent.pid, environment)
