@@ -57,7 +57,7 @@ test-asan: build-asan
 	ctest --preset asan
 
 test-python: build-dev
-	$(BIN)/pytest -m "not slow" -n 2 --dist loadgroup --durations=30
+	$(BIN)/pytest -m "not slow" -n 2 --dist loadgroup --no-loadscope-reorder --durations=30
 
 test-newest:
 	NEWEST=1 $(MAKE) test VENV=build/newest

@@ -50,6 +50,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         shared = [name for name in SHARED if name in getattr(item, "fixturenames", ())]
         if shared:
             item.add_marker(pytest.mark.xdist_group(shared[0]))
+    # Long groups first: the last one would keep one process busy while the other has nothing to do.
+    items.sort(key=_group_rank)
+
+
+def _group_rank(item: pytest.Item) -> int:
+    group = item.get_closest_marker("xdist_group")
+    return SHARED.index(group.args[0]) if group else len(SHARED)
 
 
 @pytest.fixture(scope="session", autouse=True)
