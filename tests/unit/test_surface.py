@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -220,3 +224,26 @@ def test_guided_filter_reads_nothing_outside_and_calms_noise() -> None:
     inner = z > 0.4 * 90
     assert (filtered - z)[inner].std() < 0.6 * (noisy - z)[inner].std()
     assert np.abs(guided_filter(z, mask) - z)[mask].max() < 0.01 * 90
+
+
+def test_a_height_is_the_same_on_any_number_of_cores() -> None:
+    """BLAS shares long sums out to threads, and rounds them as it does so."""
+    program = (
+        "import hashlib, numpy as np\n"
+        "from lampblack.surface import solve\n"
+        "y, x = np.mgrid[-1:1:300j, -1:1:300j].astype(np.float32)\n"
+        "z = np.sqrt(np.clip(1 - x * x - y * y, 0.01, 1))\n"
+        "mask = np.hypot(x, y) < 0.95\n"
+        "normals = (np.dstack([x, -y, z]) * mask[..., None]).astype(np.float32)\n"
+        "print(hashlib.sha256(solve(normals, mask).tobytes()).hexdigest())\n"
+    )
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "OPENBLAS_NUM_THREADS": threads},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for threads in ("1", "2")
+    }
+    assert len(found) == 1

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import compiled
-from .multigrid import Graph, Multigrid, apply_laplacian
+from .multigrid import Graph, Multigrid, apply_laplacian, dot
 
 TOLERANCE = 1e-3
 """Residual, relative to that of a flat surface: about 0.02 pixels at a height of 300."""
@@ -91,20 +91,20 @@ def _conjugate_gradient(graph: Graph, rhs: NDArray[np.float64]) -> NDArray[np.fl
     precondition = Multigrid(graph)
     z = np.zeros_like(rhs)
     residual = rhs.copy()
-    goal = TOLERANCE * np.linalg.norm(rhs)
+    goal = TOLERANCE**2 * dot(rhs, rhs)
     direction = image = np.zeros_like(rhs)
     energy = 1.0
     for _ in range(MAX_ITERATIONS):
-        if np.linalg.norm(residual) <= goal:
+        if dot(residual, residual) <= goal:
             break
         step = precondition(residual.astype(np.float32)).astype(np.float64)
-        direction = step - (step @ image / energy) * direction
+        direction = step - (dot(step, image) / energy) * direction
         image = np.empty_like(rhs)
         apply_laplacian(graph.starts, graph.ends, graph.weights, direction, image)
-        energy = float(direction @ image)
+        energy = dot(direction, image)
         if energy <= 0:
             break
-        length = direction @ residual / energy
+        length = dot(direction, residual) / energy
         z += length * direction
         residual -= length * image
     return z
