@@ -65,8 +65,17 @@ def moving(folder: Path) -> tuple[Path, Scene]:
 @pytest.mark.parametrize(("make", "frames"), [(example, "1-4"), (moving, "1-4")])
 @pytest.mark.parametrize("kind", ["png", "exr"])
 def test_a_job_writes_the_bytes_of_the_command_line(
-    client: Client, tmp_path: Path, run: Run, make: object, frames: str, kind: str
+    worker: Worker,
+    client: Client,
+    tmp_path: Path,
+    run: Run,
+    monkeypatch: pytest.MonkeyPatch,
+    make: object,
+    frames: str,
+    kind: str,
 ) -> None:
+    # As on a user's machine, where both have one cache.
+    monkeypatch.setenv("XDG_CACHE_HOME", str(worker.connection.parent / "cache"))
     project, scene = make(tmp_path)  # type: ignore[operator]
     (tmp_path / "scene.json").write_bytes(encode_scene(scene))
     pattern = tmp_path / "cli" / f"lit.%04d.{kind}"
