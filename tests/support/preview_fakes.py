@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lampblack.cache import ArrayCache
+from lampblack.normals.prediction import Prediction
 from lampblack.pipeline import Pipeline
 from lampblack.protocol import (
     MINOR,
@@ -85,10 +86,11 @@ class FakePredictor:
     def __init__(self) -> None:
         self.faults: list[Exception] = []
 
-    def predict(self, lines: Floats, mask: NDArray[np.bool_], **_: object) -> Floats:
+    def predict(self, lines: Floats, mask: NDArray[np.bool_], **_: object) -> Prediction:
         if self.faults:
             raise self.faults.pop(0)
-        return np.dstack([np.zeros((*mask.shape, 2)), mask]).astype(np.float32)
+        flat = np.dstack([np.zeros((*mask.shape, 2)), mask]).astype(np.float32)
+        return Prediction(flat)
 
 
 class FakeTransport:

@@ -13,7 +13,7 @@ from lampblack.normals.character import canvas_for, canvases, place
 from lampblack.normals.networks import CharacterNet, DilatedUNet, StridedUNet, build_network
 from lampblack.normals.networks.dilated_unet import DILATIONS
 from lampblack.normals.predict import NormalPredictor
-from lampblack.normals.predict_character import character_vectors, mean_vectors
+from lampblack.normals.predict_character import character_planes, mean_planes
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 from lampblack.normals.tiles import OUTSIDE, TILE, TileSource, diagonal_grids
 
@@ -126,7 +126,11 @@ def test_the_character_network_starts_as_lumo() -> None:
     torch.manual_seed(0)
     mask, _ = ball(300, 120.0)
     card = NetworkCard("figure-net", (256, 256), roundness=1.0)
-    found = NormalPredictor(build_network("figure-net"), card).predict(mask * np.float32(0), mask)
+    found = (
+        NormalPredictor(build_network("figure-net"), card)
+        .predict(mask * np.float32(0), mask)
+        .normals
+    )
     assert angles(found, lumo_normals(mask))[mask].mean() < 5
 
 
@@ -134,13 +138,13 @@ def test_every_canvas_counts_the_same_and_quick_sees_the_smallest_alone() -> Non
     mask, _ = ball(300, 120.0)
     lines = np.random.default_rng(0).random(mask.shape).astype(np.float32) * mask
     network = quiet_network("figure-net")._network
-    large, _ = character_vectors(network, 192, lines, mask)
-    once, _ = mean_vectors(network, (96, 192), lines, mask)
-    twice, _ = mean_vectors(network, (96, 96, 192), lines, mask)
+    large, _ = character_planes(network, 192, lines, mask)
+    once, _ = mean_planes(network, (96, 192), lines, mask)
+    twice, _ = mean_planes(network, (96, 96, 192), lines, mask)
     assert np.allclose(3 * twice - 2 * once, 2 * once - large, atol=1e-5)
     assert not np.allclose(once, large, atol=0.1)
-    quick = quiet_network("figure-net", (96, 192)).predict(lines, mask, quick=True)
-    small = quiet_network("figure-net", (96, 96)).predict(lines, mask)
+    quick = quiet_network("figure-net", (96, 192)).predict(lines, mask, quick=True).normals
+    small = quiet_network("figure-net", (96, 96)).predict(lines, mask).normals
     assert angles(quick, small)[mask].max() < 0.1
 
 
@@ -150,16 +154,65 @@ def test_a_mirrored_character_has_mirrored_normals() -> None:
     mask = rng.random((210, 143)) < 0.9
     mask[:, :60] |= True
     predictor = quiet_network("figure-net")
-    here = predictor.predict(lines, mask)
-    there = predictor.predict(lines[:, ::-1].copy(), mask[:, ::-1].copy())[:, ::-1] * [-1, 1, 1]
+    here = predictor.predict(lines, mask).normals
+    there = predictor.predict(lines[:, ::-1].copy(), mask[:, ::-1].copy()).normals[:, ::-1] * [
+        -1,
+        1,
+        1,
+    ]
     assert angles(here, there.astype(np.float32))[mask].mean() < 0.5
+
+
+def test_depth_and_occlusions_come_with_the_normals() -> None:
+    """Placed and mirrored as the normals are; depth is in pixels, so it grows with the drawing."""
+    mask, _ = ball(300, 120.0)
+    lines = np.random.default_rng(0).random(mask.shape).astype(np.float32) * mask
+    predictor = quiet_network("figure-net")
+    here, large, mirrored = (
+        predictor.predict(drawn, inside)
+        for drawn, inside in (
+            (lines, mask),
+            (lines.repeat(2, 0).repeat(2, 1), mask.repeat(2, 0).repeat(2, 1)),
+            (lines[:, ::-1].copy(), mask[:, ::-1].copy()),
+        )
+    )
+    assert here.depth is not None
+    assert here.edge is not None
+    assert large.depth is not None
+    assert mirrored.depth is not None
+    assert here.depth.std() > 1
+    assert not here.depth[~mask].any()
+    assert not here.edge[~mask].any()
+    assert 0 < here.edge[mask].min() <= here.edge.max() < 1
+    assert np.abs(mirrored.depth[:, ::-1] - here.depth).mean() < 0.02 * here.depth.std()
+    shrunk = large.depth.reshape(300, 2, 300, 2).mean(axis=(1, 3))
+    assert np.corrcoef(shrunk[mask], here.depth[mask])[0, 1] > 0.99
+    assert shrunk[mask].std() == pytest.approx(2 * here.depth[mask].std(), rel=0.05)
+    tiles = quiet_network("dilated-unet").predict(lines, mask)
+    assert tiles.depth is None
+    assert tiles.edge is None
+
+
+def test_the_shipped_network_sees_a_ball_in_front_of_another() -> None:
+    """Its depth tells which side of an inner outline is nearer, and it finds that outline."""
+    size = 360
+    rows, columns = np.mgrid[0:size, 0:size] + 0.5
+    back = np.hypot(rows - 150, columns - 180) < 130
+    front = np.hypot(rows - 240, columns - 180) < 80
+    rim = (front & ~erode(front)) | (back & ~erode(back) & ~front)
+    found = NormalPredictor().predict(rim.astype(np.float32), back | front)
+    assert found.depth is not None
+    assert found.edge is not None
+    nearer = found.depth[170:190, 150:210].mean() - found.depth[130:150, 150:210].mean()
+    assert nearer > 0.03 * size
+    assert found.edge[155:165, 150:210].max() > 0.35 > 0.2 > found.edge[80:100, 150:210].max()
 
 
 @both_kinds
 def test_prediction_is_unit_inside_and_faces_the_viewer(architecture: str) -> None:
     mask, _ = ball(300, 120.0)
     lines = np.zeros(mask.shape, np.float32)
-    found = quiet_network(architecture).predict(lines, mask)
+    found = quiet_network(architecture).predict(lines, mask).normals
     assert found.shape == (300, 300, 3)
     assert found.dtype == np.float32
     assert np.allclose(np.linalg.norm(found[mask], axis=1), 1, atol=1e-5)
@@ -179,8 +232,8 @@ def test_a_shifted_character_keeps_its_normals_to_the_bit(architecture: str, siz
     drawn, drawn_moved = (np.zeros(mask.shape, np.float32) for _ in range(2))
     drawn[:size, :size], drawn_moved[37 : 37 + size, 11 : 11 + size] = lines, lines
     predictor = quiet_network(architecture)
-    here = predictor.predict(drawn, mask)[:size, :size]
-    there = predictor.predict(drawn_moved, moved)[37 : 37 + size, 11 : 11 + size]
+    here = predictor.predict(drawn, mask).normals[:size, :size]
+    there = predictor.predict(drawn_moved, moved).normals[37 : 37 + size, 11 : 11 + size]
     assert np.array_equal(here, there)
 
 
@@ -188,14 +241,14 @@ def test_a_shifted_character_keeps_its_normals_to_the_bit(architecture: str, siz
 @pytest.mark.parametrize("shape", [(1, 1), (1, 40), (2000, 3), (5, 5)])
 def test_specks_and_slivers_are_predicted(architecture: str, shape: tuple[int, int]) -> None:
     mask = np.ones(shape, bool)
-    found = quiet_network(architecture).predict(np.ones(shape, np.float32), mask)
+    found = quiet_network(architecture).predict(np.ones(shape, np.float32), mask).normals
     assert np.allclose(np.linalg.norm(found, axis=2), 1, atol=1e-5)
 
 
 def test_nothing_drawn_predicts_nothing() -> None:
     mask = np.zeros((30, 20), bool)
     predictor = quiet_network("figure-net")
-    assert not predictor.predict(np.zeros((30, 20), np.float32), mask).any()
+    assert not predictor.predict(np.zeros((30, 20), np.float32), mask).normals.any()
     with pytest.raises(ValueError, match="grids"):
         predictor.predict(np.zeros((30, 20), np.float32), mask, grids=65)
     with pytest.raises(ValueError, match="equal"):
@@ -205,9 +258,9 @@ def test_nothing_drawn_predicts_nothing() -> None:
 def test_grids_ask_the_papers_network() -> None:
     mask, _ = ball(200, 80.0)
     lines = (mask & ~erode(mask)).astype(np.float32)
-    whole, tiled = (NormalPredictor().predict(lines, mask, grids=grids) for grids in (0, 1))
+    whole, tiled = (NormalPredictor().predict(lines, mask, grids=grids).normals for grids in (0, 1))
     paper = NormalPredictor(*load_network(shipped_weights("dilated-unet")))
-    assert np.array_equal(tiled, paper.predict(lines, mask, grids=1))
+    assert np.array_equal(tiled, paper.predict(lines, mask, grids=1).normals)
     assert not np.array_equal(tiled, whole)
 
 
@@ -215,18 +268,18 @@ def test_shipped_network_rounds_a_ball() -> None:
     """The weights that ship know at least what a ball is, better than a flat card."""
     mask, truth = ball(420, 190.0)
     rim = mask & ~np.asarray(truth[..., 2] > 0.12)
-    found = NormalPredictor().predict(rim.astype(np.float32), mask)
+    found = NormalPredictor().predict(rim.astype(np.float32), mask).normals
     assert angles(found, truth)[mask].mean() < 20
 
 
 def test_a_character_cut_by_the_canvas_is_carried_on_and_a_touching_outline_is_not() -> None:
     mask, _ = ball(420, 190.0)
     rim = (mask & ~erode(mask)).astype(np.float32)
-    whole = NormalPredictor().predict(rim, mask)
-    cut = NormalPredictor().predict(rim[:, :210], mask[:, :210])
+    whole = NormalPredictor().predict(rim, mask).normals
+    cut = NormalPredictor().predict(rim[:, :210], mask[:, :210]).normals
     assert angles(cut, whole[:, :210])[mask[:, :210]].mean() < 15  # 30 when it is rounded off
     tight, lines = mask[20:400, 20:400], rim[20:400, 20:400]
-    touching = NormalPredictor().predict(lines, tight)
+    touching = NormalPredictor().predict(lines, tight).normals
     assert angles(touching, whole[20:400, 20:400])[tight].mean() < 6
 
 

@@ -53,7 +53,7 @@ def test_the_shipped_network_says_the_same_in_both_formats(
     found = {}
     for has in (False, True):
         on_a_processor(monkeypatch, avx512_bf16=has)
-        found[has] = NormalPredictor().predict(lines, mask, quick=True)
+        found[has] = NormalPredictor().predict(lines, mask, quick=True).normals
     between = np.einsum("...c,...c->...", found[False], found[True])[mask]
     assert not np.array_equal(found[False], found[True])
     assert np.degrees(np.arccos(np.clip(between, -1, 1))).mean() < 0.3

@@ -21,6 +21,7 @@ from .choices import DEFAULT_GRIDS, PipelineOptions
 from .composite import composite
 from .drawing import Drawing, DrawingPlanes
 from .normals.predict import NormalPredictor
+from .normals.prediction import Prediction
 from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter
 from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from .prepared import PreparedDrawing, block_middles, character_box
@@ -38,7 +39,7 @@ Progress = Callable[[float], None]
 
 
 class Predictor(Protocol):
-    """Predicts normals; see ``NormalPredictor``."""
+    """Predicts normals and depth; see ``NormalPredictor``."""
 
     @property
     def identity(self) -> str:
@@ -52,8 +53,8 @@ class Predictor(Protocol):
         grids: int = DEFAULT_GRIDS,
         quick: bool = False,
         progress: Progress = lambda share: None,
-    ) -> NDArray[np.float32]:
-        """(H, W, 3) float32 normals; see ``NormalPredictor.predict``."""
+    ) -> Prediction:
+        """The prediction for one drawing; see ``NormalPredictor.predict``."""
 
 
 class Renderer(Protocol):
@@ -150,8 +151,10 @@ class Pipeline:
         )
         predicted = self._cache.get(
             key,
-            lambda: self._predictor.predict(
-                drawing.lines, drawing.mask, grids=self.options.grids, progress=progress
+            lambda: (
+                self._predictor.predict(
+                    drawing.lines, drawing.mask, grids=self.options.grids, progress=progress
+                ).normals
             ),
         )
         if neighbours is None:
@@ -235,7 +238,7 @@ class Pipeline:
         step = -(-max(width, height) // QUICK_PX)
         drawing = planes.reduced(step).decompose()
         lines, mask = _halved(drawing)
-        normals = self._predictor.predict(lines, mask, quick=True)
+        normals = self._predictor.predict(lines, mask, quick=True).normals
         scale = width / mask.shape[1]
         return PreparedDrawing(
             digest=digest,

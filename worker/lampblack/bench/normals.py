@@ -35,7 +35,7 @@ def bench_normals(picture: NDArray[np.uint8], runs: int = 5) -> dict[str, float]
         begin = moment = time.perf_counter()
         drawing = decompose_drawing(picture)
         moment = timed("take_apart", moment)
-        normals = predictor.predict(drawing.lines, drawing.mask)
+        normals = predictor.predict(drawing.lines, drawing.mask).normals
         moment = timed("normals", moment)
         height = guided_filter(solve(normals, drawing.mask), drawing.mask)
         moment = timed("surface", moment)

@@ -56,7 +56,9 @@ def bench(
         from ..normals.predict import NormalPredictor
 
         taken = decompose_drawing(picture)
-        figures = bench_inflate(NormalPredictor().predict(taken.lines, taken.mask), taken.mask)
+        figures = bench_inflate(
+            NormalPredictor().predict(taken.lines, taken.mask).normals, taken.mask
+        )
     elif what == "normals":
         from ..bench.normals import bench_normals
 

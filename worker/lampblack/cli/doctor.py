@@ -68,7 +68,7 @@ def _network() -> str:
     predictor = NormalPredictor()
     mask = np.zeros((64, 64), bool)
     mask[16:48, 16:48] = True
-    found = predictor.predict(np.zeros((64, 64), np.float32), mask, grids=1)
+    found = predictor.predict(np.zeros((64, 64), np.float32), mask, grids=1).normals
     if not np.isfinite(found).all():
         raise LampblackError("The network predicts numbers that are not finite.", "Reinstall.")
     size = Path(shipped_weights()).stat().st_size / 2**20

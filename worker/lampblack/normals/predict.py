@@ -1,4 +1,4 @@
-"""Normal maps predicted from drawings."""
+"""Normal maps, depths and occlusions predicted from drawings."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from ..choices import DEFAULT_GRIDS
 from .card import NetworkCard, load_network, shipped_weights
 from .character import extend_outside, resize
 from .networks import CharacterNet
-from .predict_character import mean_vectors
+from .predict_character import mean_planes
 from .predict_tiles import MAX_GRIDS, tile_vectors
+from .prediction import Prediction
 
 _TILE_GRIDS = 5
 
@@ -51,8 +52,8 @@ class NormalPredictor:
         grids: int = DEFAULT_GRIDS,
         quick: bool = False,
         progress: Callable[[float], None] = lambda share: None,
-    ) -> NDArray[np.float32]:
-        """Predict the normals of one drawing.
+    ) -> Prediction:
+        """Predict the normals of one drawing, and its depth and occlusions from the same pass.
 
         Args:
             lines: (H, W) float32 ink in 0..1.
@@ -63,7 +64,7 @@ class NormalPredictor:
             progress: called with the share done, 0 to 1.
 
         Returns:
-            (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
+            The prediction; a network of tiles predicts normals alone.
 
         Raises:
             ValueError: shapes differ, or ``grids`` is out of range.
@@ -76,8 +77,9 @@ class NormalPredictor:
         if whole and grids:
             return self._paper.predict(lines, mask, grids=grids, progress=progress)
         normals = np.zeros((*mask.shape, 3), np.float32)
+        depth, edge = (np.zeros(mask.shape, np.float32) if whole else None for _ in range(2))
         if not mask.any():
-            return normals
+            return Prediction(normals, depth, edge)
         # Everything is relative to the character's box, so that a character that moves across
         # the canvas keeps its normals to the last bit.
         box = _bounding_box(mask)
@@ -86,18 +88,22 @@ class NormalPredictor:
         )
         if whole:
             sides = self.card.figure_px[: 1 if quick else None]
-            vectors, seen = mean_vectors(self._network, sides, character_lines, character_mask)
+            planes, seen = mean_planes(self._network, sides, character_lines, character_mask)
         else:
             scale = self._scale(max(character_mask.shape))
             small_lines, seen = _resize_drawing(character_lines, character_mask, scale)
-            vectors = tile_vectors(self._network, small_lines, seen, grids or _TILE_GRIDS, progress)
-        vectors = extend_outside(_correct_slopes(vectors, self.card.roundness), seen)
-        vectors = resize(vectors, character_mask.shape)[inner]
+            planes = tile_vectors(self._network, small_lines, seen, grids or _TILE_GRIDS, progress)
+        planes[..., :3] = _correct_slopes(planes[..., :3], self.card.roundness)
+        planes = resize(extend_outside(planes, seen), character_mask.shape)[inner]
+        vectors, inside = planes[..., :3], mask[box]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
-        normals[box] = vectors * character_mask[inner][..., None]
+        normals[box] = vectors * inside[..., None]
+        if depth is not None and edge is not None:
+            depth[box] = planes[..., 3] * max(character_mask.shape) * inside
+            edge[box] = planes[..., 4] * inside
         progress(1.0)
-        return normals
+        return Prediction(normals, depth, edge)
 
     @cached_property
     def _paper(self) -> NormalPredictor:

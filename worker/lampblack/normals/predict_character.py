@@ -1,4 +1,4 @@
-"""Normals of a whole character at once, by the character network."""
+"""Normals, depth and occlusions of a whole character at once, by the character network."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from torch import nn
 
 from .character import (
+    COARSE,
     SIDEWAYS,
     Canvas,
     canvas_for,
@@ -22,7 +23,7 @@ from .character import (
 from .precision import fast_arithmetic
 
 
-def mean_vectors(
+def mean_planes(
     network: nn.Module,
     sides: Sequence[int],
     lines: NDArray[np.float32],
@@ -31,17 +32,17 @@ def mean_vectors(
     """The mean prediction over canvases of several ``sides``, the largest last.
 
     On a small canvas the network sees the whole, on a large one the parts, and its errors
-    differ. Arguments and result as in ``character_vectors``, at the largest size.
+    differ. Arguments and result as in ``character_planes``, at the largest size.
     """
     *smaller, largest = sides
-    vectors, seen = character_vectors(network, largest, lines, mask)
+    planes, seen = character_planes(network, largest, lines, mask)
     for side in smaller:
-        rough = extend_outside(*character_vectors(network, side, lines, mask))
-        vectors += resize(rough, seen.shape)
-    return vectors / len(sides), seen
+        rough = extend_outside(*character_planes(network, side, lines, mask))
+        planes += resize(rough, seen.shape)
+    return planes / len(sides), seen
 
 
-def character_vectors(
+def character_planes(
     network: nn.Module,
     side: int,
     lines: NDArray[np.float32],
@@ -59,7 +60,9 @@ def character_vectors(
             character gets exactly mirrored normals; this doubles the cost.
 
     Returns:
-        (h, w, 3) float32, roughly unit, and the (h, w) bool mask at that size.
+        (h, w, 5) float32: the normal, roughly unit; the depth towards the viewer, in longer
+        sides of the box; how likely the pixel lies at an occlusion, 0 to 1. And the (h, w) bool
+        mask at that size.
     """
     rows, columns = mask.shape
     canvas = canvas_for((rows, columns), side)
@@ -70,16 +73,31 @@ def character_vectors(
         fine, coarse = torch.cat([fine, fine.flip(-1)]), torch.cat([coarse, flipped])
     last = torch.channels_last
     with torch.inference_mode(), fast_arithmetic():
-        vectors, _, _ = network(
+        vectors, _, auxiliary = network(
             fine.contiguous(memory_format=last), coarse.contiguous(memory_format=last)
         )
     vectors = nn.functional.normalize(vectors, dim=1)
+    edge = auxiliary[:, 1:].amax(dim=1, keepdim=True).sigmoid()
+    cells = torch.cat([auxiliary[:, :1], edge], dim=1)
     if mirrored:
         back = vectors[1].flip(-1)
         back[0] *= -1
         vectors = (vectors[:1] + back) / 2
-    found: NDArray[np.float32] = vectors[0].permute(1, 2, 0).contiguous().numpy()
-    return found[canvas.inner], small[canvas.inner]
+        cells = (cells[:1] + cells[1:].flip(-1)) / 2
+    planes = np.concatenate([_channels_last(vectors), _spread(_channels_last(cells), small)], 2)
+    return planes[canvas.inner], small[canvas.inner]
+
+
+def _channels_last(batch: torch.Tensor) -> NDArray[np.float32]:
+    planes: NDArray[np.float32] = batch[0].permute(1, 2, 0).contiguous().numpy()
+    return planes
+
+
+def _spread(cells: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """(h, w, C) cells -> (H, W, C), the size of ``mask``. Cells outside are not trained, so none of
+    them are mixed in."""
+    touched = mask.reshape(cells.shape[0], COARSE, cells.shape[1], COARSE).any(axis=(1, 3))
+    return resize(extend_outside(cells, touched), mask.shape)
 
 
 def character_input(

@@ -38,7 +38,7 @@ PEERS: dict[str, Method] = {
 def network_method(weights: Path | None, grids: int = DEFAULT_GRIDS) -> Method:
     """The shipped network, or that of a ``.safetensors`` file; ``grids`` as in ``predict``."""
     predictor = NormalPredictor(*load_network(weights)) if weights else NormalPredictor()
-    return lambda lines, mask: predictor.predict(lines, mask, grids=grids)
+    return lambda lines, mask: predictor.predict(lines, mask, grids=grids).normals
 
 
 @dataclass

@@ -71,7 +71,7 @@ def turntable(
     It is drawn in one line style at ``views`` steps of five degrees, its front in the middle.
     """
     turned = _views(load_model(path), views, character_px, seed)
-    predicted = [predictor.predict(view.lines, view.seen.mask) for view in turned]
+    predicted = [predictor.predict(view.lines, view.seen.mask).normals for view in turned]
     rows = {
         "truth": [view.seen.normals for view in turned],
         "predicted": predicted,
