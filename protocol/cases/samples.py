@@ -73,6 +73,7 @@ SAMPLES: dict[Sender, list[Tree]] = {
         {"type": "preview", **LOOK},
         {"type": "view", **LOOK, "show": "normals"},
         {"type": "get_palette", "request": 4, "frame": 12},
+        {"type": "get_overlaps", "request": 6, "frame": 12},
         RENDER | {"quality": "low", "keep_finished": True, "project": "/shots/walk.pclx"},
         {"type": "cancel", "request": 5},
         {"type": "bye", "reason": "The window was closed."},
@@ -108,6 +109,21 @@ SAMPLES: dict[Sender, list[Tree]] = {
             "swatches": [
                 {"colour": "#dc783c", "pixels": 9000},
                 {"colour": "#00ff7f", "pixels": 12},
+            ],
+        },
+        {
+            "type": "overlaps",
+            "request": 6,
+            "frame": 12,
+            "digest": DIGEST,
+            "revision": 7,
+            "overlaps": [
+                {
+                    "points": [{"x": 10.5, "y": 20}, {"x": 12, "y": 31.25}],
+                    "front": "right",
+                    "amount": 14.5,
+                    "hinted": True,
+                }
             ],
         },
         {

@@ -19,9 +19,11 @@ from lampblack.preview import Viewport, ViewRequest
 from lampblack.preview.bounded import BoundedStore
 from lampblack.preview.contribution import LightContribution, preview_surface
 from lampblack.preview.light_store import AccumulatedLight, LightStore
-from lampblack.scene import Floor, Material, Scene, default_scene
+from lampblack.scene import Depth, DepthHint, DepthPoint, Floor, Material, Scene, default_scene
 from lampblack.service.outbox import MAX_WAITING, Outbox
+from lampblack.service.overlaps import overlaps_on_canvas
 from lampblack.surface import check_relief
+from lampblack.surface.overlap import Overlap
 from lampblack.warning_collector import collect_warnings, install_warning_collector
 from support.drawings import draw_ball
 
@@ -118,6 +120,30 @@ def test_the_camera_takes_the_scene_along() -> None:
     assert seen.floor is not None
     assert seen.floor.y == 130
     assert seen.canvas.default_height == 2 * scene.canvas.default_height
+
+
+def test_the_camera_takes_the_hints_along() -> None:
+    points = (DepthPoint(10.0, 20.0), DepthPoint(30.0, 20.0))
+    hint = DepthHint(3, points, front="left", amount=0.1)
+    scene = replace(default_scene(100, 80), depth=Depth(hints=(hint,)))
+    seen = scene_in_view(scene, (2, 0, 30, 0, 2, -10), (300, 200)).depth.hints[0]
+    assert [(p.x, p.y) for p in seen.points] == [(50, 30), (90, 30)]
+    assert (seen.front, seen.amount, seen.frame) == ("left", 0.1, 3)
+    mirrored = scene_in_view(scene, (-1, 0, 100, 0, 1, 0), (100, 80)).depth.hints[0]
+    assert [p.x for p in mirrored.points] == [90, 70]
+    assert mirrored.front == "right"
+
+
+def test_overlaps_are_sent_in_pixels_of_the_canvas() -> None:
+    points = np.stack([np.linspace(50, 90, 99), np.full(99, 30.0)], axis=1).astype(np.float32)
+    overlap = Overlap(points, "left", 8.0, hinted=True)
+    (sent,) = overlaps_on_canvas([overlap], (2, 0, 30, 0, 2, -10))
+    assert len(sent.points) == 32
+    assert [(p.x, p.y) for p in (sent.points[0], sent.points[-1])] == [(10, 20), (30, 20)]
+    assert (sent.front, sent.amount, sent.hinted) == ("left", 4.0, True)
+    (mirrored,) = overlaps_on_canvas([overlap], (-1, 0, 100, 0, 1, 0))
+    assert mirrored.front == "right"
+    assert len(overlaps_on_canvas([overlap] * 500, IDENTITY)) == 128
 
 
 def test_a_change_invalidates_exactly_what_it_shapes(drawing: PreparedDrawing) -> None:

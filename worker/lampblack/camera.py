@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .scene import AreaLight, Canvas, Scene
+from .scene import AreaLight, Canvas, DepthHint, Scene
 
 Affine = tuple[float, float, float, float, float, float]
 """[a, b, c, d, e, f]: x' = a x + b y + c, y' = d x + e y + f, both in pixels, x right, y down."""
@@ -44,7 +44,20 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
     if floor is not None:
         floor = replace(floor, y=d * scene.canvas.width / 2 + e * floor.y + f)
     lights = tuple(seen(light) for light in scene.lights)
-    return replace(scene, canvas=canvas, lights=lights, floor=floor)
+    depth = replace(scene.depth, hints=tuple(_hint_in_view(h, camera) for h in scene.depth.hints))
+    return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth)
+
+
+def _hint_in_view(hint: DepthHint, camera: Affine) -> DepthHint:
+    """A mirroring camera also mirrors the sides of a stroke."""
+    a, b, c, d, e, f = camera
+    points = tuple(
+        replace(p, x=a * p.x + b * p.y + c, y=d * p.x + e * p.y + f) for p in hint.points
+    )
+    front = hint.front
+    if a * e < b * d and front != "joined":
+        front = "right" if front == "left" else "left"
+    return replace(hint, points=points, front=front)
 
 
 def is_shift(camera: Affine) -> bool:

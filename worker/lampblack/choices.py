@@ -18,6 +18,13 @@ LayerRole = Literal["character", "line", "background"]
 FrameLayers = Literal["all", "lit"]
 """The layers of a project that its frames show."""
 
+FrontSide = Literal["left", "right", "joined"]
+"""The side of a stroke that is in front, or none: the surface goes on across the stroke."""
+
+BodyChoice = Literal["auto", "own", "below", "flat"]
+"""The surface of a layer: found by itself, a body of its own, a part of the body below, or flat
+on it."""
+
 DEFAULT_GRIDS = 0
 """Grids of tiles whose predicted normals are averaged; 0 predicts the whole character at once."""
 

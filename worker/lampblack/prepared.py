@@ -14,6 +14,7 @@ from .drawing import Drawing
 from .render import Surface, assign_materials, vertex_pixels
 from .scene import Scene
 from .surface import Relief, build_relief
+from .surface.overlap import Overlap
 
 Detail = Literal["quick", "full"]
 
@@ -35,6 +36,7 @@ class PreparedDrawing:
         normals: x right, y up, z to the viewer, 0 outside the mask; float32 at the size of
             ``layers`` or ``mask``, or (h, w, 3) float16 when compact. None if not requested.
         box: box around the character, in pixels of the drawing.
+        overlaps: where the height steps because one part is in front of another, longest first.
     """
 
     digest: str
@@ -47,6 +49,7 @@ class PreparedDrawing:
     mask: NDArray[np.bool_]
     normals: NDArray[np.float32] | NDArray[np.float16] | None
     box: Box
+    overlaps: tuple[Overlap, ...] = ()
 
     @property
     def nbytes(self) -> int:

@@ -18,7 +18,7 @@ import msgspec
 from msgspec import Meta
 
 from .affects import Affects, marks_of, traced_part
-from .choices import QualityName
+from .choices import BodyChoice, FrontSide, QualityName
 from .errors import SceneError
 
 VERSION = 1
@@ -26,6 +26,7 @@ MAX_LIGHTS = 4
 MAX_KEYS = 128
 """Of a light or a floor: so many of each fit into one message."""
 MAX_JSON_BYTES = 1 << 20
+MAX_HINTS, MAX_HINT_POINTS = 128, 16
 
 Colour = Annotated[
     str,
@@ -145,6 +146,51 @@ class Floor:
 
 
 @dataclass(frozen=True)
+class DepthPoint:
+    """A point of the canvas."""
+
+    x: Pixels
+    y: Pixels
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class DepthHint:
+    """A stroke along which the artist says what is in front. It wins over what was found.
+
+    ``front`` is the side in front for a walker from the first of ``points`` to the last, as seen
+    on the canvas. Frames before and after ``frame`` use the hint too: it is carried along with
+    the drawing. ``amount`` is the height of the step; 0 leaves it to the program.
+    """
+
+    frame: KeyFrame
+    points: Annotated[tuple[DepthPoint, ...], Meta(max_length=MAX_HINT_POINTS)] = ()
+    front: FrontSide = "left"
+    amount: Annotated[
+        float, Meta(ge=0, le=1, description="share of the longer side of the character's box")
+    ] = 0.0
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class LayerBody:
+    """What surface a layer of the drawing gets: see ``BodyChoice``."""
+
+    layer: Annotated[str, Meta(max_length=200, description="the layer's name")]
+    body: BodyChoice = "auto"
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Depth:
+    """What the artist says of the depth of drawings."""
+
+    hints: Annotated[tuple[DepthHint, ...], Meta(max_length=MAX_HINTS)] = ()
+    layers: Annotated[tuple[LayerBody, ...], Meta(max_length=64)] = ()
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Canvas:
     """Size of the drawings this scene was made for, in pixels."""
 
@@ -172,6 +218,7 @@ class Scene:
     default_material: Material = field(default_factory=Material)
     floor: Floor | None = None
     relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
+    depth: Depth = field(default_factory=Depth)
     quality: Annotated[QualityName, Affects.SAMPLING] = "low"
     version: Annotated[int, Meta(ge=VERSION, le=VERSION), Affects.NOTHING] = VERSION
     extra: Extra = field(default_factory=dict)

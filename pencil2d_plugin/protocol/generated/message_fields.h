@@ -132,6 +132,12 @@ template <class Fields> void describe(Fields& fields, GetPalette& value)
     fields.integer("frame", value.frame, 0, 999999);
 }
 
+template <class Fields> void describe(Fields& fields, GetOverlaps& value)
+{
+    fields.integer("request", value.request, 1, MaxNumber);
+    fields.integer("frame", value.frame, 0, 999999);
+}
+
 template <class Fields> void describe(Fields& fields, Render& value)
 {
     fields.integer("request", value.request, 1, MaxNumber);
@@ -195,6 +201,29 @@ template <class Fields> void describe(Fields& fields, Palette& value)
     fields.list("swatches", value.swatches, 256);
 }
 
+template <class Fields> void describe(Fields& fields, OverlapPoint& value)
+{
+    fields.real("x", value.x, -1000000, 1000000);
+    fields.real("y", value.y, -1000000, 1000000);
+}
+
+template <class Fields> void describe(Fields& fields, Overlap& value)
+{
+    fields.list("points", value.points, 32);
+    fields.choice("front", value.front, FrontSideChoices);
+    fields.real("amount", value.amount, 0, 1000000, Need::Optional);
+    fields.boolean("hinted", value.hinted, Need::Optional);
+}
+
+template <class Fields> void describe(Fields& fields, Overlaps& value)
+{
+    fields.integer("request", value.request, 1, MaxNumber);
+    fields.integer("frame", value.frame, 0, 999999);
+    text(fields, "digest", value.digest, 0, 40, patterns().digest);
+    fields.integer("revision", value.revision, 0, MaxNumber, Need::Optional);
+    fields.list("overlaps", value.overlaps, 128);
+}
+
 template <class Fields> void describe(Fields& fields, Progress& value)
 {
     fields.integer("request", value.request, 1, MaxNumber);
@@ -253,24 +282,13 @@ struct MessageType
 };
 
 /// In the order of Message's alternatives.
-constexpr std::array<MessageType, 19> MessageTypes = {{{"hello", true, false},
-                                                       {"put_frame", true, false},
-                                                       {"drop_frame", true, false},
-                                                       {"set_scene", true, false},
-                                                       {"preview", true, false},
-                                                       {"view", true, false},
-                                                       {"get_palette", true, false},
-                                                       {"render", true, false},
-                                                       {"cancel", true, false},
-                                                       {"bye", true, true},
-                                                       {"welcome", false, true},
-                                                       {"need_frame", false, true},
-                                                       {"image", false, true},
-                                                       {"palette", false, true},
-                                                       {"progress", false, true},
-                                                       {"frame_done", false, true},
-                                                       {"done", false, true},
-                                                       {"status", false, true},
-                                                       {"error", false, true}}};
+constexpr std::array<MessageType, 21> MessageTypes = {
+    {{"hello", true, false},       {"put_frame", true, false},    {"drop_frame", true, false},
+     {"set_scene", true, false},   {"preview", true, false},      {"view", true, false},
+     {"get_palette", true, false}, {"get_overlaps", true, false}, {"render", true, false},
+     {"cancel", true, false},      {"bye", true, true},           {"welcome", false, true},
+     {"need_frame", false, true},  {"image", false, true},        {"palette", false, true},
+     {"overlaps", false, true},    {"progress", false, true},     {"frame_done", false, true},
+     {"done", false, true},        {"status", false, true},       {"error", false, true}}};
 
 } // namespace lampblack::protocol

@@ -17,7 +17,7 @@ namespace lampblack::protocol
 {
 
 constexpr int Major = 1;
-constexpr int Minor = 1;
+constexpr int Minor = 2;
 
 enum class Role
 {
@@ -157,6 +157,13 @@ struct GetPalette
     int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
 };
 
+/// Request the overlaps of a frame, with the scene's hints; answered by overlaps.
+struct GetOverlaps
+{
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
+};
+
 /// Render frames into files, with the scene of this moment.
 struct Render
 {
@@ -231,6 +238,32 @@ struct Palette
     QVector<Swatch> swatches = {}; ///< 256 at most
 };
 
+/// A point of the canvas: x right, y down.
+struct OverlapPoint
+{
+    double x = 0; ///< canvas pixels, -1000000 to 1000000
+    double y = 0; ///< canvas pixels, -1000000 to 1000000
+};
+
+/// A line along which one part of the character is in front of another.
+struct Overlap
+{
+    QVector<OverlapPoint> points = {}; ///< 32 at most
+    FrontSide front = FrontSide::Left; ///< the side in front, for a walker from the first point to the last
+    double amount = 0;                 ///< height of the step, canvas pixels, 0 to 1000000
+    bool hinted = false;               ///< a hint of the scene made it so
+};
+
+/// The overlaps of a frame, the longest first.
+struct Overlaps
+{
+    quint64 request = 1;            ///< number of the request, chosen by the client; rises
+    int frame = 0;                  ///< frame of the animation, in the drawing program's count, 0 to 999999
+    QByteArray digest = {};         ///< BLAKE2b-160 of a frame's planes
+    quint64 revision = 0;           ///< revision of the scene whose hints are used
+    QVector<Overlap> overlaps = {}; ///< 128 at most
+};
+
 /// The progress of a job.
 struct Progress
 {
@@ -287,7 +320,7 @@ struct Error
 };
 
 using Message =
-    std::variant<Hello, PutFrame, DropFrame, SetScene, Preview, View, GetPalette, Render, Cancel, Bye,
-                 Welcome, NeedFrame, Image, Palette, Progress, FrameDone, Done, Status, Error>;
+    std::variant<Hello, PutFrame, DropFrame, SetScene, Preview, View, GetPalette, GetOverlaps, Render, Cancel,
+                 Bye, Welcome, NeedFrame, Image, Palette, Overlaps, Progress, FrameDone, Done, Status, Error>;
 
 } // namespace lampblack::protocol

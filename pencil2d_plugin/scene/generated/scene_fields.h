@@ -13,6 +13,14 @@ namespace lampblack
 constexpr std::array<Choice<Quality>, 3> QualityChoices = {
     {{"low", Quality::Low}, {"medium", Quality::Medium}, {"final", Quality::Final}}};
 
+constexpr std::array<Choice<FrontSide>, 3> FrontSideChoices = {
+    {{"left", FrontSide::Left}, {"right", FrontSide::Right}, {"joined", FrontSide::Joined}}};
+
+constexpr std::array<Choice<BodyChoice>, 4> BodyChoiceChoices = {{{"auto", BodyChoice::Auto},
+                                                                  {"own", BodyChoice::Own},
+                                                                  {"below", BodyChoice::Below},
+                                                                  {"flat", BodyChoice::Flat}}};
+
 struct Patterns
 {
     QRegularExpression colour{QStringLiteral(R"(^#[0-9a-f]{6}$(?!\n))")};
@@ -87,6 +95,36 @@ template <class Fields> void describe(Fields& fields, Floor& value)
     fields.rest(value.extra);
 }
 
+template <class Fields> void describe(Fields& fields, DepthPoint& value)
+{
+    fields.real("x", value.x, -100000, 100000);
+    fields.real("y", value.y, -100000, 100000);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, DepthHint& value)
+{
+    fields.integer("frame", value.frame, 0, 999999);
+    fields.list("points", value.points, 16, Need::Optional);
+    fields.choice("front", value.front, FrontSideChoices, Need::Optional);
+    fields.real("amount", value.amount, 0, 1, Need::Optional);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, LayerBody& value)
+{
+    fields.text("layer", value.layer, 0, 200);
+    fields.choice("body", value.body, BodyChoiceChoices, Need::Optional);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, Depth& value)
+{
+    fields.list("hints", value.hints, 128, Need::Optional);
+    fields.list("layers", value.layers, 64, Need::Optional);
+    fields.rest(value.extra);
+}
+
 template <class Fields> void describe(Fields& fields, Scene& value)
 {
     fields.object("canvas", value.canvas);
@@ -96,6 +134,7 @@ template <class Fields> void describe(Fields& fields, Scene& value)
     fields.object("default_material", value.defaultMaterial, Need::Optional);
     fields.object("floor", value.floor);
     fields.real("relief_scale", value.reliefScale, 0.01, 10, Need::Optional);
+    fields.object("depth", value.depth, Need::Optional);
     fields.choice("quality", value.quality, QualityChoices, Need::Optional);
     fields.integer("version", value.version, 1, 1, Need::Optional);
     fields.rest(value.extra);

@@ -46,12 +46,33 @@ bool operator==(const Floor& a, const Floor& b)
     return std::tie(a.y, a.pitch, a.keys, a.extra) == std::tie(b.y, b.pitch, b.keys, b.extra);
 }
 
+bool operator==(const DepthPoint& a, const DepthPoint& b)
+{
+    return std::tie(a.x, a.y, a.extra) == std::tie(b.x, b.y, b.extra);
+}
+
+bool operator==(const DepthHint& a, const DepthHint& b)
+{
+    return std::tie(a.frame, a.points, a.front, a.amount, a.extra) ==
+           std::tie(b.frame, b.points, b.front, b.amount, b.extra);
+}
+
+bool operator==(const LayerBody& a, const LayerBody& b)
+{
+    return std::tie(a.layer, a.body, a.extra) == std::tie(b.layer, b.body, b.extra);
+}
+
+bool operator==(const Depth& a, const Depth& b)
+{
+    return std::tie(a.hints, a.layers, a.extra) == std::tie(b.hints, b.layers, b.extra);
+}
+
 bool operator==(const Scene& a, const Scene& b)
 {
     return std::tie(a.canvas, a.lights, a.ambient, a.materials, a.defaultMaterial, a.floor, a.reliefScale,
-                    a.quality, a.version, a.extra) == std::tie(b.canvas, b.lights, b.ambient, b.materials,
-                                                               b.defaultMaterial, b.floor, b.reliefScale,
-                                                               b.quality, b.version, b.extra);
+                    a.depth, a.quality, a.version,
+                    a.extra) == std::tie(b.canvas, b.lights, b.ambient, b.materials, b.defaultMaterial,
+                                         b.floor, b.reliefScale, b.depth, b.quality, b.version, b.extra);
 }
 
 } // namespace lampblack

@@ -29,6 +29,21 @@ enum class Quality
     Final
 };
 
+enum class FrontSide
+{
+    Left,
+    Right,
+    Joined
+};
+
+enum class BodyChoice
+{
+    Auto,
+    Own,
+    Below,
+    Flat
+};
+
 /// Size of the drawings this scene was made for, in pixels.
 struct Canvas
 {
@@ -113,6 +128,44 @@ struct Floor
     QJsonObject extra = {};
 };
 
+/// A point of the canvas.
+struct DepthPoint
+{
+    double x = 0; ///< canvas pixels, -100000 to 100000
+    double y = 0; ///< canvas pixels, -100000 to 100000
+    QJsonObject extra = {};
+};
+
+/// A stroke along which the artist says what is in front. It wins over what was found.
+///
+/// `front` is the side in front for a walker from the first of `points` to the last, as seen on the canvas.
+/// Frames before and after `frame` use the hint too: it is carried along with the drawing. `amount` is the
+/// height of the step; 0 leaves it to the program.
+struct DepthHint
+{
+    int frame = 0;                   ///< frame of the animation, 0 to 999999
+    QVector<DepthPoint> points = {}; ///< 16 at most
+    FrontSide front = FrontSide::Left;
+    double amount = 0; ///< share of the longer side of the character's box, 0 to 1
+    QJsonObject extra = {};
+};
+
+/// What surface a layer of the drawing gets: see `BodyChoice`.
+struct LayerBody
+{
+    QString layer = {}; ///< the layer's name
+    BodyChoice body = BodyChoice::Auto;
+    QJsonObject extra = {};
+};
+
+/// What the artist says of the depth of drawings.
+struct Depth
+{
+    QVector<DepthHint> hints = {};  ///< 128 at most
+    QVector<LayerBody> layers = {}; ///< 64 at most
+    QJsonObject extra = {};
+};
+
 /// All that the artist sets. Materials are keyed by flat colour, so they survive any reordering of the
 /// palette; colours without one wear `default_material`.
 struct Scene
@@ -124,6 +177,7 @@ struct Scene
     Material defaultMaterial = {};
     std::optional<Floor> floor = {};
     double reliefScale = 1; ///< 0.01 to 10
+    Depth depth = {};
     Quality quality = Quality::Low;
     int version = 1; ///< 1 to 1
     QJsonObject extra = {};
@@ -136,6 +190,10 @@ bool operator==(const Ambient& a, const Ambient& b);
 bool operator==(const Material& a, const Material& b);
 bool operator==(const FloorKey& a, const FloorKey& b);
 bool operator==(const Floor& a, const Floor& b);
+bool operator==(const DepthPoint& a, const DepthPoint& b);
+bool operator==(const DepthHint& a, const DepthHint& b);
+bool operator==(const LayerBody& a, const LayerBody& b);
+bool operator==(const Depth& a, const Depth& b);
 bool operator==(const Scene& a, const Scene& b);
 
 } // namespace lampblack

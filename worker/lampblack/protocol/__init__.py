@@ -4,7 +4,18 @@ from .codec import Received, decode, encode
 from .digest import frame_digest
 from .errors import CATALOGUE, ErrorCode, ProtocolError
 from .fields import Crop, Message
-from .frames import DropFrame, GetPalette, NeedFrame, Palette, PutFrame, Swatch
+from .frames import (
+    DropFrame,
+    GetOverlaps,
+    GetPalette,
+    NeedFrame,
+    Overlap,
+    OverlapPoint,
+    Overlaps,
+    Palette,
+    PutFrame,
+    Swatch,
+)
 from .job import Cancel, Done, FrameDone, Progress, Render
 from .limits import LIMITS, Limits
 from .messages import FromClient, FromWorker, Sender
@@ -28,12 +39,16 @@ __all__ = [
     "FrameDone",
     "FromClient",
     "FromWorker",
+    "GetOverlaps",
     "GetPalette",
     "Hello",
     "Image",
     "Limits",
     "Message",
     "NeedFrame",
+    "Overlap",
+    "OverlapPoint",
+    "Overlaps",
     "Palette",
     "Pixels",
     "Plane",

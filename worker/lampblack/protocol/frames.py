@@ -7,6 +7,7 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
+from ..choices import FrontSide
 from .fields import Colour, Count, Digest, FrameNumber, Message, Request
 from .planes import Plane
 
@@ -66,3 +67,41 @@ class Palette(Message, frozen=True, kw_only=True):
     frame: FrameNumber
     digest: Digest
     swatches: Annotated[tuple[Swatch, ...], Meta(max_length=256)]
+
+
+class GetOverlaps(Message, frozen=True, kw_only=True):
+    """Request the overlaps of a frame, with the scene's hints; answered by overlaps."""
+
+    request: Request
+    frame: FrameNumber
+
+
+class OverlapPoint(msgspec.Struct, frozen=True, kw_only=True):
+    """A point of the canvas: x right, y down."""
+
+    x: Annotated[float, Meta(ge=-1e6, le=1e6, description="canvas pixels")]
+    y: Annotated[float, Meta(ge=-1e6, le=1e6, description="canvas pixels")]
+
+
+class Overlap(msgspec.Struct, frozen=True, kw_only=True):
+    """A line along which one part of the character is in front of another."""
+
+    points: Annotated[tuple[OverlapPoint, ...], Meta(max_length=32)]
+    front: Annotated[
+        FrontSide,
+        Meta(description="the side in front, for a walker from the first point to the last"),
+    ]
+    amount: Annotated[
+        float, Meta(ge=0, le=1e6, description="height of the step, canvas pixels")
+    ] = 0.0
+    hinted: Annotated[bool, Meta(description="a hint of the scene made it so")] = False
+
+
+class Overlaps(Message, frozen=True, kw_only=True):
+    """The overlaps of a frame, the longest first."""
+
+    request: Request
+    frame: FrameNumber
+    digest: Digest
+    revision: Annotated[Count, Meta(description="revision of the scene whose hints are used")] = 0
+    overlaps: Annotated[tuple[Overlap, ...], Meta(max_length=128)]

@@ -18,7 +18,7 @@ class Limits:
         pixels: pixels of a plane.
     """
 
-    header_bytes: int = 1 << 16
+    header_bytes: int = 1 << 18
     planes: int = 4
     plane_bytes: int = 1 << 28
     depth: int = 32

@@ -7,7 +7,15 @@ from typing import Literal, get_args
 import msgspec
 
 from .fields import Message
-from .frames import DropFrame, GetPalette, NeedFrame, Palette, PutFrame
+from .frames import (
+    DropFrame,
+    GetOverlaps,
+    GetPalette,
+    NeedFrame,
+    Overlaps,
+    Palette,
+    PutFrame,
+)
 from .job import Cancel, Done, FrameDone, Progress, Render
 from .preview import Image, Preview, SetScene, View
 from .session import Bye, ErrorMessage, Hello, Status, Welcome
@@ -15,13 +23,24 @@ from .session import Bye, ErrorMessage, Hello, Status, Welcome
 Sender = Literal["client", "worker"]
 
 FromClient = (
-    Hello | PutFrame | DropFrame | SetScene | Preview | View | GetPalette | Render | Cancel | Bye
+    Hello
+    | PutFrame
+    | DropFrame
+    | SetScene
+    | Preview
+    | View
+    | GetPalette
+    | GetOverlaps
+    | Render
+    | Cancel
+    | Bye
 )
 FromWorker = (
     Welcome
     | NeedFrame
     | Image
     | Palette
+    | Overlaps
     | Progress
     | FrameDone
     | Done

@@ -14,6 +14,7 @@ from ..protocol import (
     Cancel,
     DropFrame,
     ErrorCode,
+    GetOverlaps,
     GetPalette,
     Hello,
     Pixels,
@@ -29,7 +30,7 @@ from ..protocol import (
 from ..protocol.fields import Message
 from .jobs import Job
 from .service import Service
-from .session import FrameContent, Session
+from .session import FrameContent, Question, Session
 
 MAX_FRAMES = 100_000
 MAX_CLIENTS = 8
@@ -111,7 +112,7 @@ def _look(service: Service, session: Session, message: Preview | View, planes: P
     service.planner.changed()
 
 
-def _get_palette(service: Service, session: Session, message: GetPalette, planes: Planes) -> None:
+def _ask(service: Service, session: Session, message: Question, planes: Planes) -> None:
     if stale := session.check_request(message.request):
         service.send(session, stale)
     elif message.frame not in session.frames:
@@ -120,7 +121,7 @@ def _get_palette(service: Service, session: Session, message: GetPalette, planes
             error_message(ErrorCode.UNKNOWN_FRAME, request=message.request, frame=message.frame),
         )
     else:
-        session.palettes = [*session.palettes[-255:], (message.request, message.frame)]
+        session.questions = [*session.questions[-255:], message]
         service.planner.changed()
 
 
@@ -162,7 +163,8 @@ _HANDLERS: dict[type[Message], Callable[[Service, Session, Any, Planes], None]] 
     SetScene: _set_scene,
     Preview: _look,
     View: _look,
-    GetPalette: _get_palette,
+    GetPalette: _ask,
+    GetOverlaps: _ask,
     Render: _render,
     Cancel: _cancel,
     Bye: _bye,

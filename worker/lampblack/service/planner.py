@@ -12,11 +12,20 @@ from ..preview.bounded import MIB, BoundedStore
 from ..preview.painter import Painter
 from ..preview.refinement import LOW
 from ..preview.state import DrawingKey
-from ..protocol import ErrorCode, NeedFrame, Swatch, error_message
+from ..protocol import (
+    ErrorCode,
+    GetOverlaps,
+    GetPalette,
+    NeedFrame,
+    Overlaps,
+    Swatch,
+    error_message,
+)
 from ..protocol import Palette as PaletteMessage
 from ..protocol.fields import Message
 from .faults import fault_message
-from .session import Session
+from .overlaps import overlaps_on_canvas
+from .session import FrameContent, Session
 
 MAX_ASKED = 2
 """Most drawings requested from a client at the same time, for frames outside its viewport."""
@@ -69,16 +78,17 @@ class Planner:
                 urgent.append((view.digest, "full"))
                 self._request_missing(session, view.digest)
                 self._report_drawing(session, view)
-            for _, frame in session.palettes:
-                urgent.append((session.frames[frame].digest, "full"))
-                self._request_missing(session, session.frames[frame].digest)
+            for question in session.questions:
+                digest = session.frames[question.frame].digest
+                urgent.append((digest, "full"))
+                self._request_missing(session, digest)
             ahead += self._nearest(session)
         later: list[DrawingKey] = [(request.digest, "full") for request in ahead]
         self.state.show(views, tuple(ahead), tuple(dict.fromkeys(urgent + later)))
         for view in views.values():
             self.painter.offer(view)
         for session in self.sessions.values():
-            self._answer_palettes(session)
+            self._answer_questions(session)
 
     def frames_held(self, session: Session) -> int:
         """Number of frames whose drawing is stored or prepared."""
@@ -145,25 +155,50 @@ class Planner:
             code = ErrorCode.DRAWING_WARNING
             self.send(session, error_message(code, what=sentence, frame=frame))
 
-    def _answer_palettes(self, session: Session) -> None:
-        waiting, session.palettes = session.palettes, []
-        for request, frame in waiting:
-            digest = session.frames[frame].digest
-            palette, failure = self._palettes.get(digest), self.state.failure(digest)
-            drawing = self.state.drawings.get((digest, "full"))
-            if palette is None and drawing is not None:
-                palette = drawing.layers.palette
+    def _answer_questions(self, session: Session) -> None:
+        waiting, session.questions = session.questions, []
+        for question in waiting:
+            content = session.frames[question.frame]
+            failure = self.state.failure(content.digest)
             if failure is not None:
-                self.send(session, fault_message(failure, request=request, frame=frame))
-            elif palette is not None:
-                message = PaletteMessage(
-                    request=request,
-                    frame=frame,
-                    digest=digest,
-                    swatches=tuple(
-                        Swatch(colour=s.colour, pixels=s.pixels) for s in palette.swatches
-                    ),
-                )
-                self.send(session, message)
+                about = question.request, question.frame
+                self.send(session, fault_message(failure, request=about[0], frame=about[1]))
+                continue
+            answer = (
+                self._palette(question, content)
+                if isinstance(question, GetPalette)
+                else self._overlaps(question, content, session.revision)
+            )
+            if answer is None:
+                session.questions.append(question)
             else:
-                session.palettes.append((request, frame))
+                self.send(session, answer)
+
+    def _palette(self, question: GetPalette, content: FrameContent) -> Message | None:
+        """The answer; None while the drawing is not decomposed."""
+        palette = self._palettes.get(content.digest)
+        drawing = self.state.drawings.get((content.digest, "full"))
+        if palette is None and drawing is not None:
+            palette = drawing.layers.palette
+        if palette is None:
+            return None
+        swatches = tuple(Swatch(colour=s.colour, pixels=s.pixels) for s in palette.swatches)
+        about = question.request, question.frame
+        return PaletteMessage(
+            request=about[0], frame=about[1], digest=content.digest, swatches=swatches
+        )
+
+    def _overlaps(
+        self, question: GetOverlaps, content: FrameContent, revision: int
+    ) -> Message | None:
+        """The answer; None while the drawing is not prepared."""
+        drawing = self.state.drawings.get((content.digest, "full"))
+        if drawing is None:
+            return None
+        return Overlaps(
+            request=question.request,
+            frame=question.frame,
+            digest=content.digest,
+            revision=revision,
+            overlaps=overlaps_on_canvas(drawing.overlaps, content.camera),
+        )

@@ -8,10 +8,12 @@ from dataclasses import dataclass, field, replace
 
 from ..camera import Affine
 from ..preview import Viewport, ViewRequest
-from ..protocol import ErrorCode, error_message
+from ..protocol import ErrorCode, GetOverlaps, GetPalette, error_message
 from ..protocol.fields import Message
 from ..scene import Scene
 from ..timeline import is_keyed, scene_at
+
+Question = GetPalette | GetOverlaps
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Session:
         identity: routing identity. name: name of the session.
         frames: content of each frame. viewport: what the client shows.
         request: last request number. asked: drawings that need_frame has requested.
-        palettes: requests for palettes, with their frame, that wait for a drawing.
+        questions: requests about a frame's drawing that wait for it.
         informed: drawings whose errors were sent.
     """
 
@@ -44,7 +46,7 @@ class Session:
     viewport: Viewport | None = None
     request: int = 0
     asked: set[str] = field(default_factory=set)
-    palettes: list[tuple[int, int]] = field(default_factory=list)
+    questions: list[Question] = field(default_factory=list)
     informed: set[str] = field(default_factory=set)
     _requests: dict[int, ViewRequest] = field(default_factory=dict)
 
@@ -71,7 +73,7 @@ class Session:
         before = self.frames.pop(frame, None)
         if before is not None:
             self.asked.discard(before.digest)
-        self.palettes = [waiting for waiting in self.palettes if waiting[1] != frame]
+        self.questions = [asked for asked in self.questions if asked.frame != frame]
         self._requests.pop(frame, None)
 
     def view(self) -> ViewRequest | None:
