@@ -119,8 +119,16 @@ def disagreements(
     return [
         f"{folder.name}: {a} / {b}"
         for folder, a, b in zip(folders, ours, theirs, strict=True)
-        if a != b and not (a.get("code") in TEXT_CODES and b.get("code") in TEXT_CODES)
+        if a != b
+        and not (a.get("code") in TEXT_CODES and b.get("code") in TEXT_CODES)
+        and not _begins_with_a_byte_order_mark(folder)
     ]
+
+
+def _begins_with_a_byte_order_mark(folder: Path) -> bool:
+    """Whether a text of the mutant does: Qt drops the mark there, and Python keeps it."""
+    header = folder / "header.json"
+    return header.is_file() and b'"\xef\xbb\xbf' in header.read_bytes()
 
 
 @pytest.mark.parametrize("case", ACCEPT, ids=lambda case: case.name)
