@@ -9,7 +9,10 @@ import pytest
 import trimesh
 from shapes import angles, ball
 
+from lampblack.errors import LampblackError
 from lampblack.normals.silhouette import flat_normals, lumo_normals
+from lampblack_research.evaluation.depth_meter import CEILINGS, TRUE_DEPTH, TRUE_NORMALS
+from lampblack_research.evaluation.drawings import drawings
 from lampblack_research.evaluation.evaluate import PEERS, evaluate
 from lampblack_research.evaluation.laigter import laigter_normals
 from lampblack_research.evaluation.lumo_mixed import lumo_mixed_normals
@@ -77,3 +80,30 @@ def test_every_method_is_measured_on_the_same_drawings(tmp_path: Path) -> None:
     assert table["lumo"]["mean"] < 8 < table["flat"]["mean"]
     assert len({row["truth_tilt"] for row in table.values()}) == 1
     assert table["lumo"]["first_is_better_percent"] < 0
+
+
+def test_depth_adds_columns_and_the_rows_of_its_ceilings(tmp_path: Path) -> None:
+    trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
+    methods = {"lumo": PEERS["lumo"], "flat": PEERS["flat"]}
+    table = evaluate(tmp_path, None, methods, views=2, character_px=120, most=1, depth=True)
+    assert set(table) == {"lumo", "flat", *CEILINGS}
+    assert table[TRUE_DEPTH]["false"] == table[TRUE_DEPTH]["rmse"] == 0
+    assert table[TRUE_NORMALS]["rmse"] < table["lumo"]["rmse"] < table["flat"]["rmse"]
+    assert table["flat"]["height_angle"] > 30
+    assert "mean" in table["flat"]
+    assert "mean" not in table[TRUE_DEPTH]
+    with pytest.raises(LampblackError, match="4000 pixels"):
+        evaluate(tmp_path, None, methods, character_px=4000, depth=True)
+
+
+def test_some_of_the_drawings_vary_in_model_and_side(tmp_path: Path) -> None:
+    for name in "abcd":
+        trimesh.creation.box().export(tmp_path / f"{name}.ply")
+    paths = sorted(tmp_path.iterdir())
+    every = list(drawings(paths, 4, 64, "gbuffer"))
+    some = list(drawings(paths, 4, 64, "gbuffer", most=4))
+    assert len(every) == 16
+    assert len({drawing.model for drawing in some}) == 4
+    assert all(any(np.array_equal(a.lines, b.lines) for b in every) for a in some)
+    assert len({drawing.mask.shape for drawing in some}) > 1
+    assert np.array_equal(np.isfinite(some[0].depth), some[0].mask)

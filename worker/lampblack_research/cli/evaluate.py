@@ -16,13 +16,18 @@ from lampblack.cli.console import progress_bar
 from lampblack.errors import LampblackError
 from lampblack.normals.predict_tiles import PAPER_GRIDS
 
-from ..evaluation.evaluate import PEERS, Method, network_method
+from ..evaluation.evaluate import PEERS
 from ..evaluation.evaluate import evaluate as measure
 from ..evaluation.sheet import ComparisonSheet
+from ..evaluation.surfaces import Method, NetworkMethod
 
 COLUMNS = (
     *("mean", "median", "l1", "l2", "under_11", "under_22", "under_30"),
     *("tilt", "truth_tilt", "rim", "truth_rim", "curvature", "concave", "seconds"),
+)
+DEPTH_COLUMNS = (
+    *("recovered", "recovered_median", "quarter", "sign", "over", "false", "cut"),
+    *("height_angle", "rmse", "shadow_recall", "shadow_precision"),
 )
 
 
@@ -53,6 +58,23 @@ def evaluate(
     lines: Annotated[
         Literal["freestyle", "gbuffer"], typer.Option(help="Method that draws the ink lines.")
     ] = "freestyle",
+    most: Annotated[
+        int | None,
+        typer.Option(
+            "--most",
+            metavar="N",
+            min=1,
+            help="Number of drawings at most, evenly chosen. Default: every viewpoint of every "
+            "mesh.",
+        ),
+    ] = None,
+    depth: Annotated[
+        bool,
+        typer.Option(
+            "--depth",
+            help="Measure also the surfaces: depth jumps and shadows between parts.",
+        ),
+    ] = False,
     as_json: Annotated[
         Path | None,
         typer.Option("--json", metavar="FILE", help="File to write the figures to, as JSON."),
@@ -65,6 +87,8 @@ def evaluate(
     """Compare predicted normals with the truth.
 
     The table lists the angle between them and other measures, for networks and other methods.
+    With --depth a second table compares their surfaces with the true depth and its shadows. It
+    has rows for the true normals and the true depth: the most that any method can reach.
 
     Example: lampblack evaluate --models meshes/ --split val --json val.json
     """
@@ -79,6 +103,8 @@ def evaluate(
             views=views,
             character_px=resolution,
             lines=lines,
+            most=most,
+            depth=depth,
             progress=lambda share: bar.update(task, completed=int(100 * share)),
             on_drawing=comparison.add if sheet else None,
         )
@@ -88,20 +114,27 @@ def evaluate(
     if as_json:
         with atomic_file(as_json) as file:
             file.write(msgspec.json.format(msgspec.json.encode(table), indent=2) + b"\n")
-    shown = Table("method", *COLUMNS)
+    _show(table, COLUMNS)
+    if depth:
+        _show(table, DEPTH_COLUMNS)
+
+
+def _show(table: dict[str, dict[str, float]], columns: tuple[str, ...]) -> None:
+    shown = Table("method", *columns)
     for name, row in table.items():
-        shown.add_row(name, *(f"{row[column]:.3g}" for column in COLUMNS))
+        if columns[0] in row:
+            shown.add_row(name, *(f"{row[column]:.3g}" for column in columns))
     Console(width=160).print(shown)
 
 
 def _method(named: str) -> tuple[str, Method]:
     name, _, file = named.strip().partition("=")
     if file:
-        return name, network_method(Path(file))
+        return name, NetworkMethod(Path(file))
     if name == "lampblack":
-        return name, network_method(None)
+        return name, NetworkMethod(None)
     if name == "paper":
-        return name, network_method(None, PAPER_GRIDS)
+        return name, NetworkMethod(None, PAPER_GRIDS)
     if name not in PEERS:
         raise LampblackError(
             f"There is no method {name!r}.",

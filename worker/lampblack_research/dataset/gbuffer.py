@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lampblack.errors import LampblackError
-
 from .models import Model
+from .rays import RayScene
 
 MARGIN = 8
 
@@ -99,7 +97,7 @@ def trace_placed(placed: Placed) -> GBuffer:
         [columns + 0.5, height - (rows + 0.5), np.full(rows.shape, top)], axis=-1
     ).reshape(-1, 3)
     directions = np.tile(np.array([[0, 0, -1]], np.float32), (len(origins), 1))
-    hit = _intersect(vertices[faces].astype(np.float32), origins.astype(np.float32), directions)
+    hit = RayScene(vertices[faces]).first(origins.astype(np.float32), directions)
     face = hit["primID"]
     inside = face >= 0
     face, u, v = face[inside], hit["u"][inside, None], hit["v"][inside, None]
@@ -124,22 +122,3 @@ def trace_placed(placed: Placed) -> GBuffer:
         mask=inside.reshape(height, width),
         face_normals=image(flat),
     )
-
-
-def _intersect(
-    triangles: NDArray[np.float32], origins: NDArray[np.float32], directions: NDArray[np.float32]
-) -> dict[str, NDArray[Any]]:
-    """The first hit of every ray: ``primID``, -1 for none, ``u``, ``v`` and ``tfar``."""
-    try:
-        from embreex.mesh_construction import TriangleMesh
-        from embreex.rtcore_scene import EmbreeScene
-    except ImportError as error:
-        raise LampblackError(
-            "The ray tracer embreex is not installed.",
-            "Install what research needs: pip install 'lampblack[research]'.",
-            str(error),
-        ) from error
-    scene = EmbreeScene()
-    TriangleMesh(scene, triangles)
-    hits: dict[str, NDArray[Any]] = scene.run(origins, directions, query="INTERSECT", output=True)
-    return hits

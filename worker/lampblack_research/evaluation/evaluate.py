@@ -10,19 +10,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from lampblack.choices import DEFAULT_GRIDS
 from lampblack.errors import LampblackError
-from lampblack.normals.card import load_network
-from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
 
 from ..dataset.models import find_models
+from .depth_meter import DepthMeter
 from .drawings import Lines, TestDrawing, drawings
 from .laigter import laigter_normals
 from .lumo_mixed import lumo_mixed_normals
 from .metrics import Errors, bootstrap, means, measure
-
-Method = Callable[[NDArray[np.float32], NDArray[np.bool_]], NDArray[np.float32]]
+from .surfaces import Method
 
 PEERS: dict[str, Method] = {
     "flat": lambda lines, mask: flat_normals(mask),
@@ -33,12 +30,6 @@ PEERS: dict[str, Method] = {
     "lumo-mixed": lumo_mixed_normals,
 }
 """Methods that learn nothing: each maps lines (H, W) and mask (H, W) to normals (H, W, 3)."""
-
-
-def network_method(weights: Path | None, grids: int = DEFAULT_GRIDS) -> Method:
-    """The shipped network, or that of a ``.safetensors`` file; ``grids`` as in ``predict``."""
-    predictor = NormalPredictor(*load_network(weights)) if weights else NormalPredictor()
-    return lambda lines, mask: predictor.predict(lines, mask, grids=grids).normals
 
 
 @dataclass
@@ -58,6 +49,8 @@ def evaluate(
     views: int = 8,
     character_px: int = 768,
     lines: Lines = "gbuffer",
+    most: int | None = None,
+    depth: bool = False,
     progress: Callable[[float], None] = lambda share: None,
     on_drawing: Callable[[TestDrawing, dict[str, NDArray[np.float32]]], None] | None = None,
 ) -> dict[str, dict[str, float]]:
@@ -66,25 +59,32 @@ def evaluate(
     interval over models.
 
     Args:
+        most: largest number of drawings, evenly chosen of all.
+        depth: measure the surfaces too (see ``DepthMeter``): more columns, and rows of its own
+            with these columns only.
         on_drawing: called with each drawing and the normals of every method.
 
     Raises:
         LampblackError: no models are found, or none can be drawn.
     """
     paths = find_models(models, split)
+    meter = DepthMeter(character_px) if depth else None
     contenders = {name: Contender(method) for name, method in methods.items()}
     seen: list[str] = []
-    for drawing in drawings(paths, views, character_px, lines):
+    total = min(len(paths) * views, most or len(paths) * views)
+    for drawing in drawings(paths, views, character_px, lines, most=most):
         normals = {}
         for name, contender in contenders.items():
             began = time.perf_counter()
             normals[name] = contender.method(drawing.lines, drawing.mask)
             contender.seconds.append(time.perf_counter() - began)
             contender.errors.append(measure(normals[name], drawing.truth, drawing.mask))
+        if meter is not None:
+            meter.add(drawing, methods, normals)
         seen.append(drawing.model)
         if on_drawing is not None:
             on_drawing(drawing, normals)
-        progress(min(1.0, len(seen) / (len(paths) * views)))
+        progress(min(1.0, len(seen) / total))
     if not seen:
         raise LampblackError(f"Nothing could be drawn from the models in {models}.")
     table = {}
@@ -101,4 +101,6 @@ def evaluate(
                 "high_percent": round(100 * high, 2),
             }
         table[name] = row
+    for name, figures in (meter.rows() if meter else {}).items():
+        table[name] = table.get(name, {}) | figures
     return table

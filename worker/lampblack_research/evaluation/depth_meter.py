@@ -1,0 +1,76 @@
+"""Collects the figures of depth of every method, over drawings with known truth."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import asdict
+
+from lampblack.errors import LampblackError
+
+from .depth_figures import DepthTruth, mean_known
+from .drawings import TestDrawing
+from .shadows import ShadowTruth
+from .surfaces import (
+    MAX_CHARACTER_PX,
+    MeasuredSurface,
+    Method,
+    Normals,
+    surface_by,
+    surface_of_height,
+    surface_of_normals,
+)
+
+TRUE_NORMALS = "true normals"
+TRUE_DEPTH = "true depth"
+CEILINGS = (TRUE_NORMALS, TRUE_DEPTH)
+"""What the best method could reach: the true normals, inflated by the product's solver; and the
+true depth as a relief, which lacks only what no viewer sees."""
+
+
+class DepthMeter:
+    """Measures the surfaces of methods, and two ceilings (``CEILINGS``).
+
+    Args:
+        character_px: longest side of the characters.
+
+    Raises:
+        LampblackError: the characters are so large that their surfaces are made smaller.
+    """
+
+    def __init__(self, character_px: int) -> None:
+        if character_px > MAX_CHARACTER_PX:
+            raise LampblackError(
+                f"Depth cannot be measured on characters of {character_px} pixels.",
+                f"Use --resolution {MAX_CHARACTER_PX} or less.",
+            )
+        self._found: dict[str, dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
+
+    def add(
+        self, drawing: TestDrawing, methods: dict[str, Method], normals: dict[str, Normals]
+    ) -> None:
+        """Measure a drawing, with the ``normals`` that each method gave for it."""
+        depth = DepthTruth(drawing.depth, drawing.truth)
+        shadows = ShadowTruth(
+            drawing.vertices, drawing.faces, drawing.truth, drawing.mask, depth.length
+        )
+
+        def note(name: str, surface: MeasuredSurface) -> None:
+            relief = surface.relief
+            self._note(name, asdict(depth.measure(surface.height)))
+            self._note(name, asdict(shadows.measure(relief.vertices, relief.faces)))
+
+        for name, method in methods.items():
+            note(name, surface_by(method, drawing.lines, drawing.mask, normals[name]))
+        note(TRUE_NORMALS, surface_of_normals(drawing.truth, drawing.mask))
+        note(TRUE_DEPTH, surface_of_height(drawing.depth, drawing.mask))
+
+    def rows(self) -> dict[str, dict[str, float]]:
+        """For every method and ceiling, the mean of every figure over the drawings that have it."""
+        return {
+            name: {figure: mean_known(values) for figure, values in figures.items()}
+            for name, figures in self._found.items()
+        }
+
+    def _note(self, name: str, figures: dict[str, float]) -> None:
+        for figure, value in figures.items():
+            self._found[name][figure].append(value)
