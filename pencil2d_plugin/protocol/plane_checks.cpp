@@ -16,12 +16,24 @@ bool rolesAllowed(const Message& message, const QVector<Plane>& planes)
     {
         return roles == QVector<Role>{Role::Picture};
     }
+    const auto* put = std::get_if<PutFrame>(&message);
+    const int layers = put != nullptr ? put->layers.size() : 0;
+    if (layers > 0)
+    {
+        // Behind the others there is a plane for each name; without pixels there is none.
+        const QVector<Role> last(layers, Role::Layer);
+        if (roles.size() <= layers || roles.mid(roles.size() - layers) != last)
+        {
+            return false;
+        }
+        roles.resize(roles.size() - layers);
+    }
     static const QVector<QVector<Role>> Drawings = {{},
                                                     {Role::Pixels},
                                                     {Role::Pixels, Role::Mask},
                                                     {Role::Pixels, Role::Ink},
                                                     {Role::Pixels, Role::Mask, Role::Ink}};
-    return std::holds_alternative<PutFrame>(message) ? Drawings.contains(roles) : roles.isEmpty();
+    return put != nullptr ? Drawings.contains(roles) : roles.isEmpty();
 }
 
 bool tooLarge(const Plane& plane, const Limits& limits)
@@ -29,6 +41,16 @@ bool tooLarge(const Plane& plane, const Limits& limits)
     const qint64 width = plane.width;
     const qint64 height = plane.height;
     return qMax(width, height) > limits.side || width * height > limits.pixels;
+}
+
+bool tooLargeTogether(const QVector<Plane>& planes, const Limits& limits)
+{
+    qint64 pixels = 0;
+    for (const Plane& plane : planes)
+    {
+        pixels += static_cast<qint64>(plane.width) * plane.height;
+    }
+    return pixels > limits.framePixels;
 }
 
 bool strideShort(const Plane& plane)
@@ -69,7 +91,8 @@ std::optional<HeaderFault> planeFault(const Message& message, const QVector<Byte
     {
         return HeaderFault{ErrorCode::BadPlane, QStringLiteral("a format that is not its role's")};
     }
-    if (any([&limits](const Plane& plane) { return tooLarge(plane, limits); }))
+    if (any([&limits](const Plane& plane) { return tooLarge(plane, limits); }) ||
+        tooLargeTogether(planes, limits))
     {
         return HeaderFault{ErrorCode::ImageTooLarge, QString()};
     }
@@ -96,7 +119,7 @@ std::optional<HeaderFault> planeFault(const Message& message, const QVector<Byte
         views.append({plane, static_cast<const uchar*>(payloads[i].data)});
     }
     const auto* put = std::get_if<PutFrame>(&message);
-    if (put != nullptr && !views.isEmpty() && frameDigest(views) != put->digest)
+    if (put != nullptr && !views.isEmpty() && frameDigest(views, put->layers) != put->digest)
     {
         return HeaderFault{ErrorCode::DigestMismatch, QString()};
     }

@@ -31,12 +31,13 @@ std::size_t rowBytes(const Plane& plane)
     return static_cast<std::size_t>(plane.width) * static_cast<std::size_t>(bytesPerPixel(plane.format));
 }
 
-/// The first line of what is hashed of a plane.
+/// The first line of what is hashed of a plane; of a layer, its name follows.
 QByteArray title(const Plane& plane)
 {
-    static constexpr std::array<const char*, 4> Titles = {"pixels rgba8", "mask a8", "ink a8", ""};
+    static constexpr std::array<const char*, 5> Titles = {"pixels rgba8", "mask a8", "ink a8", "",
+                                                          "layer rgba8"};
     return QByteArray(Titles.at(static_cast<std::size_t>(plane.role))) + ' ' +
-           QByteArray::number(plane.width) + 'x' + QByteArray::number(plane.height) + '\n';
+           QByteArray::number(plane.width) + 'x' + QByteArray::number(plane.height);
 }
 
 class Blake2b
@@ -90,6 +91,7 @@ Format formatOf(Role role)
     switch (role)
     {
     case Role::Pixels:
+    case Role::Layer:
         return Format::Rgba8;
     case Role::Picture:
         return Format::Rgba8Premultiplied;
@@ -128,12 +130,18 @@ QByteArray rowsDigest(const PlaneView& view)
     return hash.hex();
 }
 
-QByteArray frameDigest(const QVector<PlaneView>& planes)
+QByteArray frameDigest(const QVector<PlaneView>& planes, const QStringList& layers)
 {
     Blake2b hash;
+    int layer = 0;
     for (const PlaneView& view : planes)
     {
-        const QByteArray line = title(view.plane);
+        QByteArray line = title(view.plane);
+        if (view.plane.role == Role::Layer)
+        {
+            line += ' ' + layers.value(layer++).toUtf8();
+        }
+        line += '\n';
         hash.add(line.constData(), static_cast<std::size_t>(line.size()));
         addRows(hash, view);
     }

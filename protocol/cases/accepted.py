@@ -12,6 +12,7 @@ from .samples import (
     DRAWING,
     HELLO,
     INK,
+    LAYERS,
     LIGHT,
     MASK,
     PIXELS,
@@ -155,6 +156,14 @@ def accepted_planes() -> Iterator[Case]:
         ),
         (padded(PIXELS, 24), padded(MASK, 8)),
     )
+    for name, planes in {
+        "put_frame-layers": {"pixels": PIXELS},
+        "put_frame-layers-mask-and-ink": {"pixels": PIXELS, "mask": MASK, "ink": INK},
+    }.items():
+        data = tuple(p.tobytes() for p in (*planes.values(), *(p for _, p in LAYERS)))
+        yield Case(name, "client", put_frame(planes, LAYERS), data)  # type: ignore[arg-type]
+    most = [("", PIXELS)] * 16
+    yield Case("put_frame-16-layers", "client", put_frame(DRAWING, most), (PIXELS.tobytes(),) * 17)
     yield Case(
         "put_frame-camera-turned",
         "client",

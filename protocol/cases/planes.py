@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .case import Case, Tree, patched
-from .samples import DRAWING, MASK, PICTURE, PIXELS, first_image, padded, plane, put_frame
+from .samples import DRAWING, LAYERS, MASK, PICTURE, PIXELS, first_image, padded, plane, put_frame
 
 
 def rejected_planes() -> Iterator[Case]:
@@ -27,6 +27,25 @@ def rejected_planes() -> Iterator[Case]:
     yield Case("planes-on-bye", "client", {"type": "bye"}, (data,), "bad_plane_count")
     image, _ = first_image()
     yield Case("image-without-picture", "worker", {**image, "planes": []}, (), "bad_plane")
+    parts = tuple(p.tobytes() for p in (PIXELS, *(p for _, p in LAYERS)))
+    layered = put_frame(DRAWING, LAYERS)
+
+    def put_layers(name: str, code: str, parts: tuple[bytes, ...], **changes: object) -> Case:
+        return Case(f"layers-{name}", "client", patched(layered, **changes), parts, code)
+
+    described = layered["planes"]
+    yield put_layers("fewer-names", "bad_plane", parts, layers=["body"])
+    yield put_layers("more-names", "bad_plane", parts, layers=["body", "arm", "hat"])
+    yield put_layers("announced-without-planes", "bad_plane", (), planes=[])
+    yield put_layers("without-pixels", "bad_plane", parts[1:], planes=described[1:])
+    yield put_layers("before-pixels", "bad_plane", parts, planes=described[::-1])
+    yield put_layers("of-one-channel", "bad_plane", (*parts[:2], MASK.tobytes()),
+                     planes=[*described[:2], {**plane("mask", MASK), "role": "layer"}])  # fmt: skip
+    yield put_layers("renamed", "digest_mismatch", parts, layers=["body", "arm"])
+    yield put_layers("swapped", "digest_mismatch", (parts[0], parts[2], parts[1]))
+    large = [{**each, "width": 8000, "height": 5000, "stride": 32000} for each in described[:2]]
+    yield put_layers("too-many-pixels-together", "image_too_large", (b"",) * 4,
+                     planes=[*large, *large[1:] * 2], layers=["a", "b", "c"])  # fmt: skip
     yield put("mask-alone", [mask], (MASK.tobytes(),), "bad_plane")
     yield put("mask-first", [mask, pixels], (MASK.tobytes(), data), "bad_plane")
     yield put("twice", [pixels, pixels], (data, data), "bad_plane")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,8 @@ INK = (np.arange(3 * 5) * 53 % 256).astype(np.uint8).reshape(3, 5)
 
 def plane(role: str, pixels: Pixels, stride: int = 0) -> Tree:
     """The header's words for an array."""
-    form = {"pixels": "rgba8", "picture": "rgba8_premultiplied"}.get(role, "a8")
+    forms = {"pixels": "rgba8", "layer": "rgba8", "picture": "rgba8_premultiplied"}
+    form = forms.get(role, "a8")
     height, width = pixels.shape[:2]
     row = width * (4 if pixels.ndim == 3 else 1)
     return {
@@ -30,13 +32,18 @@ def plane(role: str, pixels: Pixels, stride: int = 0) -> Tree:
     }
 
 
-def put_frame(planes: dict[Role, Pixels], **changes: Any) -> Tree:
-    """A put_frame of these planes."""
+def put_frame(
+    planes: dict[Role, Pixels], layers: Sequence[tuple[str, Pixels]] = (), **changes: Any
+) -> Tree:
+    """A put_frame of these planes and layers."""
+    sent = [*planes.items(), *(("layer", pixels) for _, pixels in layers)]
+    named = {"layers": [name for name, _ in layers]} if layers else {}
     return {
         "type": "put_frame",
         "frame": 12,
-        "digest": frame_digest(planes),
-        "planes": [plane(role, pixels) for role, pixels in planes.items()],
+        "digest": frame_digest(planes, layers),
+        "planes": [plane(role, pixels) for role, pixels in sent],
+        **named,
         **changes,
     }
 
@@ -50,6 +57,7 @@ def padded(pixels: Pixels, stride: int) -> bytes:
 
 DRAWING: dict[Role, Pixels] = {"pixels": PIXELS}
 DIGEST = frame_digest(DRAWING)
+LAYERS = [("body", PIXELS[::-1]), ("arm \u00e9", PIXELS[:, ::-1])]
 CROP = {"x": 10.5, "y": -3, "width": 320, "height": 240.25}
 LIGHT = {"x": 100, "y": 50.5, "z": 300}
 SCENE = {"canvas": {"width": 640, "height": 480}, "lights": [LIGHT]}
@@ -67,7 +75,7 @@ RENDER = {
 SAMPLES: dict[Sender, list[Tree]] = {
     "client": [
         HELLO | {"capabilities": ["premultiplied", "palette_2"]},
-        put_frame(DRAWING) | {"camera": [2, 0, -10, 0, 2, -20.5]},
+        put_frame(DRAWING, [("body", PIXELS)]) | {"camera": [2, 0, -10, 0, 2, -20.5]},
         {"type": "drop_frame", "frame": 0},
         SET_SCENE,
         {"type": "preview", **LOOK},

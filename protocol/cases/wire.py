@@ -16,7 +16,7 @@ CANCEL = b'{"lampblack":1,"type":"cancel","request":5}'
 def rejected_frames() -> Iterator[Case]:
     """Sizes and first bytes."""
     yield Case("no-frames", "client", None, code="bad_frame_count")
-    yield Case("six-frames", "client", put_frame(DRAWING), (b"x",) * 5, "bad_frame_count")
+    yield Case("22-frames", "client", put_frame(DRAWING), (b"x",) * 21, "bad_frame_count")
     yield Case(
         "header-too-large", "client", CANCEL + b" ", (), "header_too_large", {"header_bytes": 43}
     )

@@ -29,7 +29,10 @@ def cases(folder: Path = VECTORS) -> list[Path]:
 
 def frames_of(case: Path) -> list[bytes]:
     """The frames of a case's message."""
-    files = [case / "header.json", *sorted(case.glob("plane*.bin"))]
+    files = [
+        case / "header.json",
+        *sorted(case.glob("plane*.bin"), key=lambda file: (len(file.name), file.name)),
+    ]
     return [file.read_bytes() for file in files if file.exists()]
 
 

@@ -134,7 +134,7 @@ class Stage:
         self._numbers: dict[bytes, int] = defaultdict(int)
 
     def handle(self, client: bytes, message: Message, **planes: NDArray[np.uint8]) -> None:
-        handle(self.service, client, message, planes)  # type: ignore[arg-type]
+        handle(self.service, client, Received(message, planes))  # type: ignore[arg-type]
 
     def greet(self, client: bytes) -> None:
         self.handle(client, Hello(minor=MINOR, client="test", client_version="1"))

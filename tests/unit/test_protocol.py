@@ -70,6 +70,7 @@ def test_the_catalogue_knows_every_code() -> None:
 def test_planes_may_be_as_large_as_drawings() -> None:
     assert (LIMITS.side, LIMITS.pixels) == (MAX_SIDE, MAX_PIXELS)
     assert LIMITS.plane_bytes >= 4 * MAX_PIXELS
+    assert LIMITS.frame_pixels >= 3 * MAX_PIXELS
 
 
 def test_the_token_expression_of_the_specification() -> None:

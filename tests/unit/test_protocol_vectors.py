@@ -44,14 +44,15 @@ def test_every_message_is_accepted_somewhere() -> None:
 @pytest.mark.parametrize("case", ACCEPT, ids=lambda case: case.name)
 def test_round_trip(case: Path) -> None:
     sender = json.loads((case / "expected.json").read_text())["sender"]
-    message, planes = decode(frames_of(case), sender)
-    frames = encode(message, planes)
+    message, planes, layers = decode(frames_of(case), sender)
+    frames = encode(message, planes, layers)
     again = decode(frames, sender)
     assert encode(*again) == frames
     assert untied(again.message) == untied(message)
     assert {role: p.tolist() for role, p in again.planes.items()} == {
         role: p.tolist() for role, p in planes.items()
     }
+    assert [p.tolist() for p in again.layers] == [p.tolist() for p in layers]
 
 
 def untied(message: Message) -> Message:

@@ -10,12 +10,13 @@ namespace lampblack::protocol
 
 struct Limits
 {
-    qint64 headerBytes = 262144;   ///< length of the header frame.
-    qint64 planes = 4;             ///< frames after the header.
-    qint64 planeBytes = 268435456; ///< length of each of them; also what ZMQ_MAXMSGSIZE is to be set to.
-    qint64 depth = 32;             ///< objects and arrays within one another in the header, itself included.
-    qint64 side = 16384;           ///< longer side of a plane in pixels.
-    qint64 pixels = 40000000;      ///< pixels of a plane.
+    qint64 headerBytes = 262144;    ///< length of the header frame.
+    qint64 planes = 20;             ///< frames after the header.
+    qint64 planeBytes = 268435456;  ///< length of each of them; also what ZMQ_MAXMSGSIZE is to be set to.
+    qint64 depth = 32;              ///< objects and arrays within one another in the header, itself included.
+    qint64 side = 16384;            ///< longer side of a plane in pixels.
+    qint64 pixels = 40000000;       ///< pixels of a plane.
+    qint64 framePixels = 120000000; ///< pixels of all planes of a message.
 };
 
 } // namespace lampblack::protocol

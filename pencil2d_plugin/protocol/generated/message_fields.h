@@ -11,8 +11,11 @@
 namespace lampblack::protocol
 {
 
-constexpr std::array<Choice<Role>, 4> RoleChoices = {
-    {{"pixels", Role::Pixels}, {"mask", Role::Mask}, {"ink", Role::Ink}, {"picture", Role::Picture}}};
+constexpr std::array<Choice<Role>, 5> RoleChoices = {{{"pixels", Role::Pixels},
+                                                      {"mask", Role::Mask},
+                                                      {"ink", Role::Ink},
+                                                      {"picture", Role::Picture},
+                                                      {"layer", Role::Layer}}};
 
 constexpr std::array<Choice<Format>, 3> FormatChoices = {
     {{"rgba8", Format::Rgba8}, {"rgba8_premultiplied", Format::Rgba8Premultiplied}, {"a8", Format::A8}}};
@@ -40,6 +43,7 @@ struct Patterns
     QRegularExpression endpoint{QStringLiteral(R"(^ipc:///[^\x00-\x1f\x7f]+$(?!\n))")};
     QRegularExpression capabilities{QStringLiteral(R"(^[a-z0-9_]+$(?!\n))")};
     QRegularExpression digest{QStringLiteral(R"(^[0-9a-f]{40}$(?!\n))")};
+    QRegularExpression layers{QStringLiteral(R"(^[^\x00-\x1f\x7f]*$(?!\n))")};
     QRegularExpression frames{QStringLiteral(
         R"(^[0-9]{1,6}(-[0-9]{1,6}(x[0-9]{1,6})?)?(,[0-9]{1,6}(-[0-9]{1,6}(x[0-9]{1,6})?)?)*$(?!\n))")};
     QRegularExpression output{QStringLiteral(R"(^/[^%\x00-\x1f\x7f]*%0[1-9]d\.(png|exr)$(?!\n))")};
@@ -85,7 +89,8 @@ template <class Fields> void describe(Fields& fields, PutFrame& value)
     fields.integer("frame", value.frame, 0, 999999);
     text(fields, "digest", value.digest, 0, 40, patterns().digest);
     reals(fields, "camera", value.camera, -1000000, 1000000, Need::Optional);
-    fields.list("planes", value.planes, 3, Need::Optional);
+    fields.list("planes", value.planes, 19, Need::Optional);
+    fields.texts("layers", value.layers, 16, 200, patterns().layers, Need::Optional);
 }
 
 template <class Fields> void describe(Fields& fields, DropFrame& value)
@@ -221,7 +226,7 @@ template <class Fields> void describe(Fields& fields, Overlaps& value)
     fields.integer("frame", value.frame, 0, 999999);
     text(fields, "digest", value.digest, 0, 40, patterns().digest);
     fields.integer("revision", value.revision, 0, MaxNumber, Need::Optional);
-    fields.list("overlaps", value.overlaps, 128);
+    fields.list("overlaps", value.overlaps, 200);
 }
 
 template <class Fields> void describe(Fields& fields, Progress& value)

@@ -24,7 +24,8 @@ enum class Role
     Pixels,
     Mask,
     Ink,
-    Picture
+    Picture,
+    Layer
 };
 
 enum class Format
@@ -97,13 +98,15 @@ struct Plane
 /// Frame `frame` shows the drawing `digest`; its planes follow or were sent before.
 ///
 /// Without planes the worker answers need_frame if it does not hold the drawing. Planes: `pixels` (rgba8),
-/// then optionally `mask` and `ink` (a8), all of one size.
+/// then optionally `mask` and `ink` (a8), then a `layer` (rgba8) for each name in `layers`, all of one size.
+/// `pixels` is what the layers show together.
 struct PutFrame
 {
     int frame = 0;                    ///< frame of the animation, in the drawing program's count, 0 to 999999
     QByteArray digest = {};           ///< BLAKE2b-160 of a frame's planes
     QTransform camera = QTransform(); ///< affine map from canvas to view, 2 x 3, row by row
-    QVector<Plane> planes = {};       ///< the planes that follow, in order, 3 at most
+    QVector<Plane> planes = {};       ///< the planes that follow, in order, 19 at most
+    QStringList layers = {}; ///< names of the character's layers, bottom first, if they are sent apart
 };
 
 /// The frame is no longer part of the animation.
@@ -261,7 +264,7 @@ struct Overlaps
     int frame = 0;                  ///< frame of the animation, in the drawing program's count, 0 to 999999
     QByteArray digest = {};         ///< BLAKE2b-160 of a frame's planes
     quint64 revision = 0;           ///< revision of the scene whose hints are used
-    QVector<Overlap> overlaps = {}; ///< 128 at most
+    QVector<Overlap> overlaps = {}; ///< 200 at most
 };
 
 /// The progress of a job.

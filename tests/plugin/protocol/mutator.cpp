@@ -33,7 +33,7 @@ const QJsonArray& oddValues()
 {
     static const QByteArray text = R"([null, true, false, 0, 1, -1, 0.5, 2, 3, 4, 5, 255, 1000, 4096, 4097,
 65536, 65537, 999999, 1000000, 2147483647, 2147483648, 9007199254740991, 9007199254740992, 1e-7, 0.01, 1e5,
-100001, 1e300, "", "a8", "rgba8", "pixels", "mask", "low", "lit", "#ff00ff", "#ff00ff\n", "1-20x2,25",
+100001, 1e300, "", "a8", "rgba8", "pixels", "mask", "layer", "low", "lit", "#ff00ff", "#ff00ff\n", "1-20x2,25",
 "9-1", "0-999999", "/a%04d.png", "\u0000", "\ud83d\ude00", [], {}, [1, 0, 0, 0, 1, 0], [1, 2, 3, 2, 4, 6],
 [{}], {"x": 1, "y": 1, "z": 1, "width": 1, "height": 1}])";
     static const QJsonArray values = QJsonDocument::fromJson(text).array();
@@ -264,9 +264,10 @@ void Mutator::repairPlanes(Case& message)
         const int size = static_cast<int>(stride) * static_cast<int>(height);
         QByteArray& payload = message.frames[i + 1];
         payload = payload.leftJustified(size, 'p', true);
-        const Role role = roleName == QLatin1String("pixels") ? Role::Pixels
-                          : roleName == QLatin1String("mask") ? Role::Mask
-                                                              : Role::Ink;
+        const Role role = roleName == QLatin1String("pixels")  ? Role::Pixels
+                          : roleName == QLatin1String("mask")  ? Role::Mask
+                          : roleName == QLatin1String("layer") ? Role::Layer
+                                                               : Role::Ink;
         const Format format = formatOf(role);
         if (width * bytesPerPixel(format) > stride)
         {
@@ -279,7 +280,12 @@ void Mutator::repairPlanes(Case& message)
     if (tree.value(QLatin1String("type")) == QLatin1String("put_frame") && !views.isEmpty())
     {
         tree.remove(QStringLiteral("lampblack"));
-        tree.insert(QStringLiteral("digest"), QString::fromLatin1(frameDigest(views)));
+        QStringList layers;
+        for (const QJsonValue layer : tree.value(QLatin1String("layers")).toArray())
+        {
+            layers.append(layer.toString());
+        }
+        tree.insert(QStringLiteral("digest"), QString::fromLatin1(frameDigest(views, layers)));
         message.frames[0] =
             QJsonDocument(tree).toJson(QJsonDocument::Compact).replace(0, 1, headerBeginning());
     }

@@ -52,6 +52,7 @@ Case readCase(const QString& folder)
     take(limits, "depth", message.limits.depth);
     take(limits, "side", message.limits.side);
     take(limits, "pixels", message.limits.pixels);
+    take(limits, "frame_pixels", message.limits.framePixels);
     for (int i = 0; QFile::exists(dir.filePath(frameFile(i))); ++i)
     {
         message.frames.append(contents(dir.filePath(frameFile(i))));
@@ -107,14 +108,17 @@ QJsonObject verdict(const Decoded& decoded)
     {
         return {{QStringLiteral("code"), name(refusal->code)}};
     }
-    static const std::array<QString, 4> Roles = {QStringLiteral("pixels"), QStringLiteral("mask"),
-                                                 QStringLiteral("ink"), QStringLiteral("picture")};
+    static const std::array<QString, 5> Roles = {QStringLiteral("pixels"), QStringLiteral("mask"),
+                                                 QStringLiteral("ink"), QStringLiteral("picture"),
+                                                 QStringLiteral("layer")};
     const auto& received = std::get<Received>(decoded);
     QJsonObject planes;
+    int layer = 0;
     for (const PlaneView& view : received.planes)
     {
-        planes.insert(Roles.at(static_cast<std::size_t>(view.plane.role)),
-                      QString::fromLatin1(rowsDigest(view)));
+        QString role = Roles.at(static_cast<std::size_t>(view.plane.role));
+        role += view.plane.role == Role::Layer ? QString::number(layer++) : QString();
+        planes.insert(role, QString::fromLatin1(rowsDigest(view)));
     }
     return {{QStringLiteral("message"), messageTree(received.message)}, {QStringLiteral("planes"), planes}};
 }

@@ -37,7 +37,7 @@ _BRACKET_OR_STRING = re.compile(rb'[\[{]|[\]}]|"(?:[^"\\]|\\.)*+"?', re.DOTALL)
 
 
 def frame_count(frames: Sequence[bytes | memoryview], limits: Limits) -> None:
-    """A header and at most four planes."""
+    """A header and not too many planes."""
     if not 1 <= len(frames) <= 1 + limits.planes:
         raise ProtocolError(ErrorCode.BAD_FRAME_COUNT, f"{len(frames)} frames")
 
@@ -129,9 +129,12 @@ def plane_count(planes: Sequence[Plane], payloads: Sequence[memoryview]) -> None
 
 
 def plane_roles(message: Message, planes: Sequence[Plane]) -> None:
-    """The planes are those that the message may carry, in their order."""
+    """The planes are those that the message may carry, in their order; there is one for each
+    layer."""
     roles = tuple(plane.role for plane in planes)
-    if roles not in _ROLES.get(type(message), ((),)):
+    layers = tuple("layer" for _ in getattr(message, "layers", ()))
+    allowed = _ROLES.get(type(message), ((),))
+    if roles not in [(*others, *layers) for others in allowed if others or not layers]:
         raise ProtocolError(ErrorCode.BAD_PLANE, f"roles {', '.join(roles)}")
 
 
@@ -143,11 +146,14 @@ def plane_formats(planes: Sequence[Plane]) -> None:
 
 
 def plane_extent(planes: Sequence[Plane], limits: Limits) -> None:
-    """No side and no area exceeds that of drawings."""
+    """No side and no area exceeds that of drawings, and all planes together are not too large."""
     for plane in planes:
         width, height = plane.width, plane.height
         if max(width, height) > limits.side or width * height > limits.pixels:
             raise ProtocolError(ErrorCode.IMAGE_TOO_LARGE, f"{width} x {height}")
+    together = sum(plane.width * plane.height for plane in planes)
+    if together > limits.frame_pixels:
+        raise ProtocolError(ErrorCode.IMAGE_TOO_LARGE, f"{together} pixels in all planes")
 
 
 def plane_stride(planes: Sequence[Plane]) -> None:
@@ -175,10 +181,10 @@ def plane_payload(planes: Sequence[Plane], payloads: Sequence[memoryview]) -> No
             )
 
 
-def digest(message: Message, pixels: dict[Role, Pixels]) -> None:
+def digest(message: Message, pixels: dict[Role, Pixels], layers: Sequence[Pixels] = ()) -> None:
     """The digest is that of the planes."""
     if isinstance(message, PutFrame) and pixels:
-        found = frame_digest(pixels)
+        found = frame_digest(pixels, zip(message.layers, layers, strict=True))
         if found != message.digest:
             raise ProtocolError(ErrorCode.DIGEST_MISMATCH, f"the planes have {found}")
 

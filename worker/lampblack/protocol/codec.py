@@ -25,10 +25,12 @@ class Received(NamedTuple):
         message: one of ``messages.MESSAGES``.
         planes: by role, read-only views of the frames: (H, W, 4) uint8 sRGB ``pixels``
             (straight alpha) and ``picture`` (premultiplied), (H, W) uint8 ``mask`` and ``ink``.
+        layers: (H, W, 4) uint8 sRGB, straight alpha, for each name in the message's ``layers``.
     """
 
     message: Message
     planes: dict[Role, Pixels]
+    layers: tuple[Pixels, ...] = ()
 
 
 def decode(
@@ -78,12 +80,14 @@ def _read(
     checks.plane_stride(planes)
     checks.planes_alike(planes)
     checks.plane_payload(planes, payloads)
-    pixels = {
-        plane.role: view_pixels(plane, payload)
+    views = [
+        (plane.role, view_pixels(plane, payload))
         for plane, payload in zip(planes, payloads, strict=True)
-    }
-    checks.digest(message, pixels)
-    return Received(message, pixels)
+    ]
+    pixels: dict[Role, Pixels] = {role: view for role, view in views if role != "layer"}
+    layers = tuple(view for role, view in views if role == "layer")
+    checks.digest(message, pixels, layers)
+    return Received(message, pixels, layers)
 
 
 def _identity(tree: dict[str, Any]) -> tuple[str, int | None]:
@@ -94,7 +98,9 @@ def _identity(tree: dict[str, Any]) -> tuple[str, int | None]:
 
 
 def encode(
-    message: Message, planes: Mapping[Role, Pixels] | None = None
+    message: Message,
+    planes: Mapping[Role, Pixels] | None = None,
+    layers: Sequence[Pixels] = (),
 ) -> list[bytes | memoryview]:
     """The frames of one multipart message.
 
@@ -102,15 +108,17 @@ def encode(
     A contiguous array is not copied: it must not change until it is sent.
 
     Args:
-        message: what to send; ``planes`` and, for put_frame, ``digest`` must fit the arrays.
+        message: what to send; for put_frame, ``digest`` and ``layers`` must fit the arrays.
         planes: by role, in the order in which the message carries them.
+        layers: of put_frame, an array for each name in its ``layers``.
 
     Raises:
         ProtocolError: the header would be too long (``HEADER_TOO_LARGE``).
         ValueError: an array that its role does not allow.
     """
-    arrays = {role: np.ascontiguousarray(pixels) for role, pixels in (planes or {}).items()}
-    specs = tuple(plane_of(role, pixels) for role, pixels in arrays.items())
+    named = [*(planes or {}).items(), *(("layer", pixels) for pixels in layers)]
+    arrays = [(role, np.ascontiguousarray(pixels)) for role, pixels in named]
+    specs = tuple(plane_of(role, pixels) for role, pixels in arrays)
     if isinstance(message, PutFrame | Image):
         message = msgspec.structs.replace(message, planes=specs)
     elif specs:
@@ -118,4 +126,4 @@ def encode(
     first = header.write_header(message)
     if len(first) > LIMITS.header_bytes:
         raise ProtocolError(ErrorCode.HEADER_TOO_LARGE, f"{len(first)} bytes")
-    return [first, *(array.data.cast("B") for array in arrays.values())]
+    return [first, *(array.data.cast("B") for _, array in arrays)]

@@ -70,10 +70,10 @@ _UPDATE = "Update Lampblack and the plugin together."
 
 CATALOGUE: dict[ErrorCode, Entry] = {
     ErrorCode.BAD_FRAME_COUNT: Entry(
-        "The message has no frame, or more than a header and four planes.", _REPORT, decoding=True
+        "The message has no frame, or more than a header and 20 planes.", _REPORT, decoding=True
     ),
     ErrorCode.HEADER_TOO_LARGE: Entry(
-        "The header is longer than 65,536 bytes.",
+        "The header is longer than 262,144 bytes.",
         "Give fewer colours a material of their own.",
         decoding=True,
     ),

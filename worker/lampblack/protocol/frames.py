@@ -11,6 +11,10 @@ from ..choices import FrontSide
 from .fields import Colour, Count, Digest, FrameNumber, Message, Request
 from .planes import Plane
 
+MAX_LAYERS = 16
+"""Layers of a drawing that a client sends apart."""
+
+LayerName = Annotated[str, Meta(pattern=r"^[^\x00-\x1f\x7f]*$(?!\n)", max_length=200)]
 Coefficient = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Affine = Annotated[
     tuple[Coefficient, Coefficient, Coefficient, Coefficient, Coefficient, Coefficient],
@@ -22,14 +26,23 @@ class PutFrame(Message, frozen=True, kw_only=True):
     """Frame ``frame`` shows the drawing ``digest``; its planes follow or were sent before.
 
     Without planes the worker answers need_frame if it does not hold the drawing. Planes:
-    ``pixels`` (rgba8), then optionally ``mask`` and ``ink`` (a8), all of one size.
+    ``pixels`` (rgba8), then optionally ``mask`` and ``ink`` (a8), then a ``layer`` (rgba8) for
+    each name in ``layers``, all of one size. ``pixels`` is what the layers show together.
     """
 
     frame: FrameNumber
     digest: Digest
     camera: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
     planes: Annotated[
-        tuple[Plane, ...], Meta(max_length=3, description="the planes that follow, in order")
+        tuple[Plane, ...], Meta(max_length=19, description="the planes that follow, in order")
+    ] = ()
+    layers: Annotated[
+        tuple[LayerName, ...],
+        Meta(
+            max_length=MAX_LAYERS,
+            description="names of the character's layers, bottom first, if they are sent apart",
+            extra_json_schema={"x-since": "1.2"},
+        ),
     ] = ()
 
 
@@ -104,4 +117,4 @@ class Overlaps(Message, frozen=True, kw_only=True):
     frame: FrameNumber
     digest: Digest
     revision: Annotated[Count, Meta(description="revision of the scene whose hints are used")] = 0
-    overlaps: Annotated[tuple[Overlap, ...], Meta(max_length=128)]
+    overlaps: Annotated[tuple[Overlap, ...], Meta(max_length=200)]

@@ -16,14 +16,16 @@ class Limits:
         depth: objects and arrays within one another in the header, itself included.
         side: longer side of a plane in pixels.
         pixels: pixels of a plane.
+        frame_pixels: pixels of all planes of a message.
     """
 
     header_bytes: int = 1 << 18
-    planes: int = 4
+    planes: int = 20
     plane_bytes: int = 1 << 28
     depth: int = 32
     side: int = 16384
     pixels: int = 40_000_000
+    frame_pixels: int = 120_000_000
 
 
 LIMITS = Limits()

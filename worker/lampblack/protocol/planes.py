@@ -14,7 +14,7 @@ from .fields import BYTES, PIXELS
 MAX_INT32 = (1 << 31) - 1
 
 Pixels = NDArray[np.uint8]
-Role = Literal["pixels", "mask", "ink", "picture"]
+Role = Literal["pixels", "mask", "ink", "picture", "layer"]
 Format = Literal["rgba8", "rgba8_premultiplied", "a8"]
 
 BYTES_PER_PIXEL: dict[Format, int] = {"rgba8": 4, "rgba8_premultiplied": 4, "a8": 1}
@@ -23,6 +23,7 @@ FORMAT_OF: dict[Role, Format] = {
     "mask": "a8",
     "ink": "a8",
     "picture": "rgba8_premultiplied",
+    "layer": "rgba8",
 }
 
 

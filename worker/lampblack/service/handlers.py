@@ -17,11 +17,10 @@ from ..protocol import (
     GetOverlaps,
     GetPalette,
     Hello,
-    Pixels,
     Preview,
     PutFrame,
+    Received,
     Render,
-    Role,
     SetScene,
     View,
     Welcome,
@@ -35,18 +34,17 @@ from .session import FrameContent, Question, Session
 MAX_FRAMES = 100_000
 MAX_CLIENTS = 8
 
-Planes = dict[Role, Pixels]
 
-
-def handle(service: Service, identity: bytes, message: Message, planes: Planes) -> None:
+def handle(service: Service, identity: bytes, received: Received) -> None:
     """Handle a valid message."""
+    message = received.message
     session = service.sessions.get(identity)
     if isinstance(message, Hello):
         _hello(service, identity, message)
     elif session is None:
         service.answer(identity, error_message(ErrorCode.NOT_GREETED))
     else:
-        _HANDLERS[type(message)](service, session, message, planes)
+        _HANDLERS[type(message)](service, session, message, received)
 
 
 def _hello(service: Service, identity: bytes, message: Hello) -> None:
@@ -57,15 +55,23 @@ def _hello(service: Service, identity: bytes, message: Hello) -> None:
         service.answer(identity, error_message(ErrorCode.TOO_MANY_CLIENTS))
         return
     session = service.sessions[identity] = Session(identity)
-    service.send(session, Welcome(minor=MINOR, session=session.name, worker_version=__version__))
+    service.send(
+        session,
+        Welcome(
+            minor=MINOR,
+            session=session.name,
+            worker_version=__version__,
+            capabilities=("layers",),
+        ),
+    )
     service.hurry_status()
 
 
-def _put_frame(service: Service, session: Session, message: PutFrame, planes: Planes) -> None:
+def _put_frame(service: Service, session: Session, message: PutFrame, received: Received) -> None:
     if message.frame not in session.frames and len(session.frames) >= MAX_FRAMES:
         service.send(session, error_message(ErrorCode.TOO_MANY_FRAMES, frame=message.frame))
         return
-    if planes:
+    if planes := received.planes:
         session.asked.discard(message.digest)
         given = DrawingPlanes(planes["pixels"], planes.get("mask"), planes.get("ink"))
         service.preview.state.put_planes(message.digest, given)
@@ -73,12 +79,12 @@ def _put_frame(service: Service, session: Session, message: PutFrame, planes: Pl
     service.planner.changed()
 
 
-def _drop_frame(service: Service, session: Session, message: DropFrame, planes: Planes) -> None:
+def _drop_frame(service: Service, session: Session, message: DropFrame, received: Received) -> None:
     session.drop_frame(message.frame)
     service.planner.changed()
 
 
-def _set_scene(service: Service, session: Session, message: SetScene, planes: Planes) -> None:
+def _set_scene(service: Service, session: Session, message: SetScene, received: Received) -> None:
     if message.revision <= session.revision:
         service.send(
             session, error_message(ErrorCode.STALE_REVISION, details=f"{message.revision}")
@@ -88,7 +94,7 @@ def _set_scene(service: Service, session: Session, message: SetScene, planes: Pl
     service.planner.changed()
 
 
-def _look(service: Service, session: Session, message: Preview | View, planes: Planes) -> None:
+def _look(service: Service, session: Session, message: Preview | View, received: Received) -> None:
     if stale := session.check_request(message.request):
         service.send(session, stale)
         return
@@ -112,7 +118,7 @@ def _look(service: Service, session: Session, message: Preview | View, planes: P
     service.planner.changed()
 
 
-def _ask(service: Service, session: Session, message: Question, planes: Planes) -> None:
+def _ask(service: Service, session: Session, message: Question, received: Received) -> None:
     if stale := session.check_request(message.request):
         service.send(session, stale)
     elif message.frame not in session.frames:
@@ -125,7 +131,7 @@ def _ask(service: Service, session: Session, message: Question, planes: Planes) 
         service.planner.changed()
 
 
-def _render(service: Service, session: Session, message: Render, planes: Planes) -> None:
+def _render(service: Service, session: Session, message: Render, received: Received) -> None:
     if stale := session.check_request(message.request):
         service.send(session, stale)
         return
@@ -145,7 +151,7 @@ def _render(service: Service, session: Session, message: Render, planes: Planes)
             service.send(session, error_message(ErrorCode.TOO_MANY_JOBS, request=message.request))
 
 
-def _cancel(service: Service, session: Session, message: Cancel, planes: Planes) -> None:
+def _cancel(service: Service, session: Session, message: Cancel, received: Received) -> None:
     if session.viewport is not None and session.viewport.request == message.request:
         session.look_at(None)
         service.planner.changed()
@@ -153,11 +159,11 @@ def _cancel(service: Service, session: Session, message: Cancel, planes: Planes)
         service.jobs.cancel(session.name, message.request)
 
 
-def _bye(service: Service, session: Session, message: Bye, planes: Planes) -> None:
+def _bye(service: Service, session: Session, message: Bye, received: Received) -> None:
     service.part_with(session)
 
 
-_HANDLERS: dict[type[Message], Callable[[Service, Session, Any, Planes], None]] = {
+_HANDLERS: dict[type[Message], Callable[[Service, Session, Any, Received], None]] = {
     PutFrame: _put_frame,
     DropFrame: _drop_frame,
     SetScene: _set_scene,

@@ -42,8 +42,7 @@ class Server:
 
     def _receive(self, identity: bytes, frames: list[bytes]) -> None:
         try:
-            message, planes = decode(frames, "client")
-            handle(self._service, identity, message, planes)
+            handle(self._service, identity, decode(frames, "client"))
         except ProtocolError as error:
             self._service.answer(identity, answer_to(error))
         except Exception as error:  # an error of one message must not affect the others
