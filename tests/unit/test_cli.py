@@ -57,6 +57,18 @@ def test_normals_mesh_palette_and_scene(run: Run, tmp_path: Path, ball_png: Path
     assert run("mesh", ball_png, "-o", mesh, "--stride", 4).code == 0
     assert trimesh.load_mesh(mesh).is_watertight
 
+    height = tmp_path / "ball.height.npy"
+    assert run("height", ball_png, "-o", height).code == 0
+    found = np.load(height, allow_pickle=False)
+    assert (found.shape, found.dtype) == ((160, 160), np.float32)
+    assert np.array_equal(np.isfinite(found), mask)
+    assert found[80, 80] > found[80, 40] + 5 > found[80, 20] + 10
+    depth = tmp_path / "ball.depth.png"
+    assert run("depth", ball_png, "-o", depth).code == 0
+    seen = load_picture(depth).astype(int)
+    assert seen[80, 80, 0] > seen[80, 40, 0] > seen[80, 20, 0]
+    assert np.array_equal(seen[..., 3] > 0, mask)
+
     listed = run("palette", ball_png, "--json")
     assert json.loads(listed.out)[0]["colour"] == "#dc783c"
     assert "#dc783c" in run("palette", ball_png).out

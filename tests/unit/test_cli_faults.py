@@ -118,6 +118,32 @@ def test_bad_scenes_are_told(
     assert run("render", ball_png, "-o", tmp_path / "lit", "--scene", tmp_path / "no").code == 1
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"[]",
+        b'{"hints": [{"frame": -1}]}',
+        b'{"hints": [{"frame": 1, "front": "top"}]}',
+        b'{"hints": [{"frame": 1, "points": [{"x": 1e300, "y": 0}]}]}',
+        b'{"hints": [' + b'{"frame": 1},' * 128 + b'{"frame": 1}]}',
+        b'{"layers": [{"layer": "arm", "body": "round"}]}',
+    ],
+)
+def test_bad_depth_hints_are_told(
+    run: Run, tmp_path: Path, ball_png: Path, unrendered: list[str], content: bytes
+) -> None:
+    hints = tmp_path / "hints.json"
+    hints.write_bytes(content)
+    done = run("render", ball_png, "-o", tmp_path / "lit", "--depth-hints", hints)
+    assert done.code == 1
+    assert "hints" in done.err
+    assert not unrendered
+    missing = tmp_path / "no.json"
+    assert run("height", ball_png, "-o", tmp_path / "h.npy", "--depth-hints", missing).code == 1
+    assert not (tmp_path / "h.npy").exists()
+
+
 @pytest.mark.parametrize("line", ["nan", "1e30", "inf"])
 def test_bad_floors_are_told(
     run: Run, tmp_path: Path, ball_png: Path, unrendered: list[str], line: str

@@ -95,6 +95,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         lights=tuple(few()),
         floor=random.uniform(-9, 9),
         quality=random.choice(get_args(QualityName)),
+        depth_hints=random.choice(texts),
         frames=random.choice(texts),
         format=random.choice(get_args(FileFormat)),
         mask=random.choice(texts),

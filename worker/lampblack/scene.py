@@ -272,19 +272,7 @@ def decode_scene(data: bytes) -> Scene:
     Raises:
         SceneError: not JSON, too large, of another version, or a value out of range.
     """
-    if len(data) > MAX_JSON_BYTES:
-        raise SceneError(
-            f"The scene file is {len(data)} bytes long; {MAX_JSON_BYTES} is the most.",
-            "Check that this is a scene file.",
-        )
-    try:
-        tree = msgspec.json.decode(data)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise SceneError(
-            "The scene file is not valid JSON.", "Write a fresh one: lampblack scene.", str(error)
-        ) from error
-    if not isinstance(tree, dict):
-        raise SceneError("The scene file does not hold a JSON object.")
+    tree = _json_object(data, "scene")
     version = tree.get("version", VERSION)
     if version != VERSION:
         raise SceneError(
@@ -297,6 +285,42 @@ def decode_scene(data: bytes) -> Scene:
         raise SceneError(
             "The scene has a field that cannot be used.", "Correct it and try again.", str(error)
         ) from error
+
+
+def decode_depth(data: bytes) -> Depth:
+    """Read what the artist says of the depth, from JSON: the field ``depth`` of a scene.
+
+    Raises:
+        SceneError: not JSON, too large, or a value out of range.
+    """
+    tree = _json_object(data, "hints")
+    try:
+        return _from_builtins(tree, Depth)
+    except (msgspec.ValidationError, RecursionError) as error:
+        raise SceneError(
+            "The file of hints has a field that cannot be used.",
+            "Correct it and try again.",
+            str(error),
+        ) from error
+
+
+def _json_object(data: bytes, what: str) -> dict[str, Any]:
+    if len(data) > MAX_JSON_BYTES:
+        raise SceneError(
+            f"The {what} file is {len(data)} bytes long; {MAX_JSON_BYTES} is the most.",
+            f"Check that this is a {what} file.",
+        )
+    try:
+        tree = msgspec.json.decode(data)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise SceneError(
+            f"The {what} file is not valid JSON.",
+            "Write a fresh one: lampblack scene." if what == "scene" else "",
+            str(error),
+        ) from error
+    if not isinstance(tree, dict):
+        raise SceneError(f"The {what} file does not hold a JSON object.")
+    return tree
 
 
 def scene_schema() -> dict[str, Any]:

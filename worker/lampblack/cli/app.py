@@ -15,6 +15,8 @@ COMMANDS: Commands = {
     "job": ("lampblack.cli.job:job", "Write an OpenJD job template that lights a shot."),
     "serve": ("lampblack.cli.serve:serve", "Serve a drawing program with previews and renders."),
     "normals": ("lampblack.cli.surface:normals", "Predict the normal maps of drawings."),
+    "height": ("lampblack.cli.surface:height", "Inflate drawings into heights, as arrays."),
+    "depth": ("lampblack.cli.surface:depth", "Show which parts of drawings are in front."),
     "mesh": ("lampblack.cli.surface:mesh", "Inflate drawings into closed relief meshes."),
     "turntable": ("lampblack.cli.turntable:turntable", "Show a drawing's relief from the sides."),
     "export": ("lampblack.cli.export:export", "Write one frame as a 3D scene for other programs."),

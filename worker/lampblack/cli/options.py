@@ -52,6 +52,11 @@ OPTIONS: dict[str, Any] = {
     "quality": typer.Option(
         "--quality", help="Quality preset of the light. Default: the scene's, or low."
     ),
+    "depth_hints": typer.Option(
+        "--depth-hints",
+        metavar="FILE",
+        help="File with what is in front: the field depth of a scene. Replaces the scene's.",
+    ),
     "format": typer.Option("--format", help="File format. Default: the pattern's, or png."),
     "character": typer.Option(
         "--character", metavar="LAYER", help="Project layer to light. May be repeated."

@@ -1,4 +1,4 @@
-"""``lampblack normals`` and ``mesh``: normal maps and relief meshes of drawings."""
+"""``lampblack normals``, ``height``, ``depth`` and ``mesh``: normal maps, heights and meshes."""
 
 from __future__ import annotations
 
@@ -106,6 +106,78 @@ def mesh(
             relief = prepared.relief(stride=stride, relief_scale=relief_scale)
             for frame in frames:
                 save_mesh(relief, targets.path(frame))
+
+
+@with_settings("inputs", "frames", "depth_hints", "steady", "mask", "ink")
+def height(
+    settings: RenderSettings,
+    output: Annotated[
+        str,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE|DIR|PATTERN",
+            help="A .npy file, a pattern (h.%04d.npy) or a folder.",
+        ),
+    ],
+) -> None:
+    """Inflate drawings into heights, as arrays.
+
+    A .npy holds (H, W) float32: pixels towards the viewer, NaN outside the character.
+
+    Example: lampblack height hero.png -o hero.height.npy
+    """
+    _write_heights(settings, output, "npy")
+
+
+@with_settings("inputs", "frames", "depth_hints", "steady", "mask", "ink")
+def depth(
+    settings: RenderSettings,
+    output: Annotated[
+        str,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE|DIR|PATTERN",
+            help="A .png or .npy file, a pattern (d.%04d.png) or a folder.",
+        ),
+    ],
+) -> None:
+    """Show which parts of drawings are in front.
+
+    A .png is grey: nearer is brighter. A .npy holds the heights, as those of lampblack height.
+
+    Example: lampblack depth hero.png -o hero.depth.png
+    """
+    _write_heights(settings, output, "png", "npy")
+
+
+def _write_heights(settings: RenderSettings, output: str, *kinds: str) -> None:
+    import numpy as np
+
+    from ..atomic import atomic_file
+    from ..cache import surface_cache
+    from ..drawing import save_picture
+    from ..finals.neighbours import NeighbourLoader
+    from ..pipeline import Pipeline
+    from ..shot import by_drawing
+    from ..surface import depth_picture, full_size
+
+    shot, targets = _resolve(settings, output, *kinds)
+    with Pipeline(surface_cache()) as pipeline:
+        around = NeighbourLoader(shot.shot, pipeline, shot.reach)
+        groups = by_drawing(shot.frames)
+        for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
+            prepared = pipeline.prepare(drawing, around.neighbours(frames[0]))
+            found = full_size(prepared.height, prepared.mask, prepared.size)
+            for frame in frames:
+                if targets.kind == "npy":
+                    with atomic_file(targets.path(frame)) as file:
+                        np.save(file, found, allow_pickle=False)
+                else:
+                    inside = np.isfinite(found)
+                    picture = depth_picture(np.nan_to_num(found), inside)
+                    save_picture(targets.path(frame), picture)
 
 
 def _resolve(settings: RenderSettings, output: str, *kinds: str) -> tuple[ResolvedShot, Targets]:

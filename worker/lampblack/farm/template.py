@@ -14,6 +14,9 @@ from ..finals.settings import RenderSettings
 
 VERSION = "jobtemplate-2023-09"
 
+_FILES = {"Scene": "scene", "DepthHints": "depth_hints", "Mask": "mask", "Ink": "ink"}
+"""Parameters of a template that are files, and their fields in the settings."""
+
 
 def job_template(
     settings: RenderSettings, tasks: Sequence[Sequence[int]], folder: Path
@@ -34,7 +37,7 @@ def job_template(
     parameters = [_parameter(name, path, folder) for name, path in paths.items()]
     named = {name: "{{Param." + name + "}}" for name in paths}
     replaced: dict[str, Any] = {"inputs": (named["Input"],), "output": named["Output"]}
-    replaced |= {n.lower(): named[n] for n in ("Scene", "Mask", "Ink") if n in named}
+    replaced |= {field: named[name] for name, field in _FILES.items() if name in named}
     task = msgspec.structs.replace(settings, frames="{{Task.Param.Frames}}", **replaced)
     parameters.append(
         {"name": "Lampblack", "type": "STRING", "default": "lampblack",
@@ -95,7 +98,7 @@ def paths_outside(settings: RenderSettings, folder: Path) -> dict[str, Path]:
 def _paths(settings: RenderSettings) -> dict[str, Path]:
     (source,) = settings.inputs
     paths: dict[str, str | None] = {"Input": source, "Output": settings.output}
-    paths |= {"Scene": settings.scene, "Mask": settings.mask, "Ink": settings.ink}
+    paths |= {name: getattr(settings, field) for name, field in _FILES.items()}
     return {name: Path(path) for name, path in paths.items() if path is not None}
 
 

@@ -16,7 +16,7 @@ from ..project.stack import roles_of
 from ..scene import Scene
 from ..shot import Shot, ShotFrame
 from .pictures import PictureShot
-from .scene_overrides import SceneOverrides, read_scene
+from .scene_overrides import SceneOverrides, read_depth_hints, read_scene
 from .settings import RenderSettings
 from .targets import Targets
 
@@ -90,7 +90,14 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
         shot = PictureShot(found, mask, ink)
         sources = [frame.path for frame in found]
     frames = _chosen(shot.frames, settings.frames)
-    overrides = SceneOverrides(scene, settings.lights, settings.floor, settings.quality)
+    hints = settings.depth_hints
+    overrides = SceneOverrides(
+        scene,
+        settings.lights,
+        settings.floor,
+        settings.quality,
+        None if hints is None else read_depth_hints(Path(hints)),
+    )
     return ResolvedShot(shot, frames, overrides, sources, single, REACH if settings.steady else 0)
 
 

@@ -12,8 +12,10 @@ from ..scene import (
     MAX_LIGHTS,
     AreaLight,
     Canvas,
+    Depth,
     Floor,
     Scene,
+    decode_depth,
     decode_scene,
     default_light,
     default_scene,
@@ -28,12 +30,14 @@ class SceneOverrides:
         file: the scene of the scene file, if there is one.
         lights: ``X,Y,Z`` each, in place of the scene's lights.
         floor: canvas line of a floor. quality: a preset.
+        depth: what the artist says of the depth.
     """
 
     file: Scene | None = None
     lights: Sequence[str] = ()
     floor: float | None = None
     quality: QualityName | None = None
+    depth: Depth | None = None
 
     def __post_init__(self) -> None:
         lights_at(self.lights, Canvas(1, 1))  # mistakes are reported before any work
@@ -47,6 +51,8 @@ class SceneOverrides:
             scene = replace(scene, lights=lights_at(self.lights, canvas))
         if self.floor is not None:
             scene = replace(scene, floor=floor_at(self.floor))
+        if self.depth is not None:
+            scene = replace(scene, depth=self.depth)
         return scene if self.quality is None else replace(scene, quality=self.quality)
 
 
@@ -61,6 +67,20 @@ def read_scene(path: Path) -> Scene:
     except OSError as error:
         raise SceneError(
             f"The scene {path} cannot be read.", "Write one: lampblack scene.", str(error)
+        ) from error
+
+
+def read_depth_hints(path: Path) -> Depth:
+    """Load a file of depth hints: the field ``depth`` of a scene.
+
+    Raises:
+        SceneError: it cannot be read, or holds something else.
+    """
+    try:
+        return decode_depth(path.read_bytes())
+    except OSError as error:
+        raise SceneError(
+            f"The hints {path} cannot be read.", "Check the file's name.", str(error)
         ) from error
 
 

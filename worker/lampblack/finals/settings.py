@@ -19,6 +19,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         lights: ``X,Y,Z`` each, in canvas pixels, in place of the scene's lights.
         floor: canvas line of a floor, in place of the scene's floor.
         quality: preset, in place of the scene's.
+        depth_hints: file of depth hints, in place of the scene's depth.
         frames: list such as ``1-20x2,25``; None is all.
         format: file format; None is that of ``output``, or PNG.
         mask, ink: picture files; see ``decompose_drawing``.
@@ -37,6 +38,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     lights: tuple[str, ...] = ()
     floor: float | None = None
     quality: QualityName | None = None
+    depth_hints: str | None = None
     frames: str | None = None
     format: FileFormat | None = None
     mask: str | None = None
@@ -51,7 +53,9 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
 
     def absolute(self) -> RenderSettings:
         """The same settings with absolute paths."""
-        named = {name: getattr(self, name) for name in ("output", "scene", "mask", "ink")}
+        named = {
+            name: getattr(self, name) for name in ("output", "scene", "depth_hints", "mask", "ink")
+        }
         found = {
             name: str(Path(path).absolute()) for name, path in named.items() if path is not None
         }
@@ -63,7 +67,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         words = [*self.inputs, "-o", self.output]
         for name in self.__struct_fields__[2:]:
             value = getattr(self, name)
-            option = {"lights": "--light"}.get(name, f"--{name}")
+            option = {"lights": "--light"}.get(name, f"--{name.replace('_', '-')}")
             # One word each, so that a value may begin with a dash.
             if isinstance(value, dict):
                 words += [f"--{role}={layer}" for layer, role in value.items()]

@@ -14,6 +14,7 @@ from ..composite.byte_kernel import warm_up
 from ..composite.byte_layers import ByteLayers, cut_picture
 from ..composite.illumination import Illumination
 from ..prepared import PreparedDrawing
+from ..surface import depth_picture
 from .bounded import MIB, BoundedStore
 from .light_store import AccumulatedLight
 from .refinement import CONVERGED
@@ -213,12 +214,10 @@ def _view(drawing: PreparedDrawing, request: ViewRequest) -> Picture:
     if request.viewport.show == "normals":
         assert drawing.normals is not None
         colour = np.rint((drawing.normals.astype(np.float32) + 1) * 127.5).astype(np.uint8)
+        alpha = drawing.mask.astype(np.uint8)[..., None]
+        picture = np.concatenate([colour * alpha, alpha * 255], axis=2)
     else:
-        low, high = float(drawing.height.min()), float(drawing.height.max())
-        grey = np.clip((drawing.height - low) / max(high - low, 1e-6), 0, 1) * 255
-        colour = np.repeat(np.rint(grey)[..., None], 3, axis=2).astype(np.uint8)
-    alpha = drawing.mask.astype(np.uint8)[..., None]
-    picture = np.concatenate([colour * alpha, alpha * 255], axis=2)
+        picture = depth_picture(drawing.height, drawing.mask)
     scale = drawing.size[0] / picture.shape[1]
     x, y, width, height = (value / scale for value in request.viewport.crop)
     return cut_picture(picture, (x, y, width, height), request.viewport.size)
