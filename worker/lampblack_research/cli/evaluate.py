@@ -29,6 +29,10 @@ DEPTH_COLUMNS = (
     *("recovered", "recovered_median", "quarter", "sign", "over", "false", "cut"),
     *("height_angle", "rmse", "shadow_recall", "shadow_precision"),
 )
+MARK_COLUMNS = (
+    *("marks_cut", "hatching_cut", "stripes_cut", "spots_cut"),
+    *("marks_rise", "hatching_rise", "stripes_rise", "spots_rise"),
+)
 
 
 def evaluate(
@@ -75,6 +79,14 @@ def evaluate(
             help="Measure also the surfaces: depth jumps and shadows between parts.",
         ),
     ] = False,
+    marks: Annotated[
+        bool,
+        typer.Option(
+            "--marks",
+            help="With --depth: measure also what hatching, stripes and spots on the drawings "
+            "do to normals and surfaces.",
+        ),
+    ] = False,
     as_json: Annotated[
         Path | None,
         typer.Option("--json", metavar="FILE", help="File to write the figures to, as JSON."),
@@ -92,6 +104,8 @@ def evaluate(
 
     Example: lampblack evaluate --models meshes/ --split val --json val.json
     """
+    if marks and not depth:
+        raise LampblackError("Marks are measured on surfaces.", "Add --depth.")
     chosen = dict(_method(named) for named in methods.split(","))
     comparison = ComparisonSheet()
     with progress_bar() as bar:
@@ -105,6 +119,7 @@ def evaluate(
             lines=lines,
             most=most,
             depth=depth,
+            marks=marks,
             progress=lambda share: bar.update(task, completed=int(100 * share)),
             on_drawing=comparison.add if sheet else None,
         )
@@ -117,6 +132,8 @@ def evaluate(
     _show(table, COLUMNS)
     if depth:
         _show(table, DEPTH_COLUMNS)
+    if depth and marks:
+        _show(table, MARK_COLUMNS)
 
 
 def _show(table: dict[str, dict[str, float]], columns: tuple[str, ...]) -> None:

@@ -51,6 +51,7 @@ def evaluate(
     lines: Lines = "gbuffer",
     most: int | None = None,
     depth: bool = False,
+    marks: bool = False,
     progress: Callable[[float], None] = lambda share: None,
     on_drawing: Callable[[TestDrawing, dict[str, NDArray[np.float32]]], None] | None = None,
 ) -> dict[str, dict[str, float]]:
@@ -62,13 +63,14 @@ def evaluate(
         most: largest number of drawings, evenly chosen of all.
         depth: measure the surfaces too (see ``DepthMeter``): more columns, and rows of its own
             with these columns only.
+        marks: with ``depth``, measure also what hatching, stripes and spots do.
         on_drawing: called with each drawing and the normals of every method.
 
     Raises:
         LampblackError: no models are found, or none can be drawn.
     """
     paths = find_models(models, split)
-    meter = DepthMeter(character_px) if depth else None
+    meter = DepthMeter(character_px, marks=marks) if depth else None
     contenders = {name: Contender(method) for name, method in methods.items()}
     seen: list[str] = []
     total = min(len(paths) * views, most or len(paths) * views)
