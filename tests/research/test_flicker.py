@@ -27,6 +27,7 @@ def test_command_measures_drawings_and_skips_holds_and_blanks(run: Run, tmp_path
     assert rows["predicted"]["rigid"] < 1.5
     assert rows["steadied"]["rigid"] < 1.5
     assert rows["predicted"]["jitter"] is None
+    assert rows["steadied"]["swaps"] in (0, None)
     assert run("flicker").code == 1
 
 
@@ -38,3 +39,14 @@ def test_on_a_turntable_the_truth_has_no_error(tmp_path: Path) -> None:
     assert rows["truth"].error < 0.1
     assert rows["truth"].jitter < 1.5
     assert rows["predicted"].error > 1
+
+
+def test_cuts_of_the_truth_are_followed_along_the_model(tmp_path: Path) -> None:
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=0.5)
+    front = trimesh.creation.icosphere(subdivisions=3, radius=0.2)
+    front.apply_translation((0.1, 0, 1))
+    trimesh.util.concatenate([ball, front]).export(tmp_path / "balls.ply")
+    small = NormalPredictor(build_network("figure-net"), NetworkCard("figure-net", (64, 96)))
+    truth = turntable(tmp_path / "balls.ply", small, views=3, character_px=160)["truth"]
+    assert truth.cuts == 1
+    assert truth.flips == 0

@@ -16,7 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lampblack.normals.temporal.registration import Registration, rigid_registration
-from lampblack.normals.temporal.temporal_filter import TemporalFilter, warped_normals
+from lampblack.normals.temporal.temporal_filter import (
+    LazyNeighbours,
+    Neighbours,
+    TemporalFilter,
+    warped_normals,
+)
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail
 from lampblack.normals.temporal.window import Planes
 
@@ -78,6 +83,12 @@ class FlickerMeter:
         """The means over all drawings so far."""
         found = self._rigid, self._motion, self._local, self._jitter
         return Flicker(*(float(np.mean(values)) if values else nan for values in found))
+
+
+def lazy_neighbours(around: Neighbours) -> LazyNeighbours:
+    """Neighbours that are loaded, as a pipeline takes them."""
+    names = [tuple(other.name for other in side) for side in (around.before, around.after)]
+    return LazyNeighbours((names[0], names[1]), lambda: around)
 
 
 def rigid_change(here: RegistrationThumbnail, later: RegistrationThumbnail) -> float:

@@ -6,19 +6,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lampblack.cache import ArrayCache
 from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.temporal.neighbours import REACH
 from lampblack.normals.temporal.temporal_filter import Neighbours, TemporalFilter
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
+from lampblack.pipeline import Pipeline
 
 from ..dataset.gbuffer import GBuffer, place, trace_placed, view_rotation
 from ..dataset.linework import LineStyle, draw_lines
 from ..dataset.models import Model, load_model
-from .flicker import rigid_change
+from .flicker import lazy_neighbours, rigid_change
+from .flips import Carry, FlipMeter, Flips
+from .surfaces import ink_drawing
 
 STEP_DEGREES = 5.0
 _ELEVATION = 10.0
@@ -38,12 +43,16 @@ class TurntableErrors:
         jitter: departure from the mean of the views before and after, at the points of the model.
         rigid: change after the rigid motion in the picture is removed. It includes the turn of the
             model, also for the truth.
+        cuts, swaps, flips: see ``Flips``. Those of the truth come and go as the model turns.
     """
 
     error: float
     change: float
     jitter: float
     rigid: float
+    cuts: float
+    swaps: float
+    flips: float
 
 
 @dataclass(frozen=True)
@@ -72,12 +81,24 @@ def turntable(
     """
     turned = _views(load_model(path), views, character_px, seed)
     predicted = [predictor.predict(view.lines, view.seen.mask).normals for view in turned]
+    near = _neighbours(turned, predicted)
+    with TemporaryDirectory(prefix="lampblack-") as folder:
+        pipeline = Pipeline(ArrayCache(Path(folder)), predictor=predictor)
+        drawn = [ink_drawing(view.lines, view.seen.mask) for view in turned]
+        heights = {
+            "truth": [view.seen.depth for view in turned],
+            "predicted": [pipeline.prepare(drawing).height for drawing in drawn],
+            "steadied": [
+                pipeline.prepare(drawing, lazy_neighbours(around)).height
+                for drawing, around in zip(drawn, near, strict=True)
+            ],
+        }
     rows = {
         "truth": [view.seen.normals for view in turned],
         "predicted": predicted,
-        "steadied": _smoothed(turned, predicted),
+        "steadied": _smoothed(turned, predicted, near),
     }
-    return {name: _measure(turned, normals) for name, normals in rows.items()}
+    return {name: _measure(turned, rows[name], heights[name]) for name in rows}
 
 
 def _views(model: Model, count: int, character_px: int, seed: int) -> list[View]:
@@ -106,17 +127,21 @@ def _views(model: Model, count: int, character_px: int, seed: int) -> list[View]
     return turned
 
 
-def _smoothed(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
-    temporal_filter = TemporalFilter()
-    small = _small(views, predicted)
+def _neighbours(views: Sequence[View], normals: Sequence[Normals]) -> list[Neighbours]:
+    small = _small(views, normals)
     return [
-        temporal_filter.smooth(
-            normals,
-            views[i].seen.mask,
-            small[i],
-            Neighbours(tuple(small[max(0, i - REACH) : i][::-1]), tuple(small[i + 1 :][:REACH])),
-        )
-        for i, normals in enumerate(predicted)
+        Neighbours(tuple(small[max(0, i - REACH) : i][::-1]), tuple(small[i + 1 :][:REACH]))
+        for i in range(len(views))
+    ]
+
+
+def _smoothed(
+    views: Sequence[View], predicted: Sequence[Normals], near: Sequence[Neighbours]
+) -> list[Normals]:
+    temporal_filter, small = TemporalFilter(), _small(views, predicted)
+    return [
+        temporal_filter.smooth(normals, view.seen.mask, here, around)
+        for normals, view, here, around in zip(predicted, views, small, near, strict=True)
     ]
 
 
@@ -127,7 +152,9 @@ def _small(views: Sequence[View], normals: Sequence[Normals]) -> list[Registrati
     ]
 
 
-def _measure(views: Sequence[View], normals: Sequence[Normals]) -> TurntableErrors:
+def _measure(
+    views: Sequence[View], normals: Sequence[Normals], heights: Sequence[NDArray[np.float32]]
+) -> TurntableErrors:
     error, change, jitter = [], [], []
     rigid = [rigid_change(here, later) for here, later in pairwise(_small(views, normals))]
     for i, view in enumerate(views):
@@ -151,7 +178,38 @@ def _measure(views: Sequence[View], normals: Sequence[Normals]) -> TurntableErro
             mean = carried[0] + carried[1]
             met = np.isfinite(mean[..., 0])
             jitter.append(_angle(normals[i][met], mean[met]))
-    return TurntableErrors(*(float(np.mean(found)) for found in (error, change, jitter, rigid)))
+    return TurntableErrors(
+        error=float(np.mean(error)),
+        change=float(np.mean(change)),
+        jitter=float(np.mean(jitter)),
+        rigid=float(np.mean(rigid)),
+        **_flips(views, heights)._asdict(),
+    )
+
+
+def _flips(views: Sequence[View], heights: Sequence[NDArray[np.float32]]) -> Flips:
+    meter = FlipMeter()
+    for last, view, height in zip((None, *views), views, heights, strict=False):
+        meter.add(
+            np.where(view.seen.mask, height, np.float32(np.nan)),
+            None if last is None else _carry(last, view),
+            None if last is None else _carry(view, last),
+        )
+    return meter.flips
+
+
+def _carry(view: View, other: View) -> Carry:
+    """Points of the model, from view to view; nan where they are hidden or beyond the model."""
+    index, width = _followed(view, other), other.seen.mask.shape[1]
+
+    def carry(points: NDArray[np.float32]) -> NDArray[np.float32]:
+        column, row = np.floor(points).astype(int).T
+        found = index[np.clip(row, 0, len(index) - 1), np.clip(column, 0, index.shape[1] - 1)]
+        there = np.column_stack([found % width + 0.5, found // width + 0.5]).astype(np.float32)
+        there[found < 0] = np.nan
+        return there
+
+    return carry
 
 
 def _followed(view: View, other: View) -> NDArray[np.int64]:
