@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from lampblack_research.evaluation.evaluate import PEERS, evaluate
 from lampblack_research.evaluation.laigter import laigter_normals
 from lampblack_research.evaluation.lumo_mixed import lumo_mixed_normals
 from lampblack_research.evaluation.metrics import bootstrap, means, measure
+from support.command_line import Run
 
 
 def test_the_truth_has_no_error_and_flat_has_its_own() -> None:
@@ -107,3 +109,18 @@ def test_some_of_the_drawings_vary_in_model_and_side(tmp_path: Path) -> None:
     assert all(any(np.array_equal(a.lines, b.lines) for b in every) for a in some)
     assert len({drawing.mask.shape for drawing in some}) > 1
     assert np.array_equal(np.isfinite(some[0].depth), some[0].mask)
+
+
+def test_command_writes_the_figures_of_depth_too(run: Run, tmp_path: Path) -> None:
+    trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
+    models = ["--models", tmp_path, "--split", "all", "--methods", "lumo,flat"]
+    small = ["--lines", "gbuffer", "--views", 1, "--resolution", 96]
+    found = tmp_path / "found.json"
+    outcome = run("evaluate", *models, *small, "--depth", "--marks", "--json", found)
+    assert outcome.code == 0
+    rows = json.loads(found.read_text())
+    assert set(rows) == {"lumo", "flat", *CEILINGS}
+    assert rows["flat"]["marks_cut"] == rows["flat"]["marks_rise"] == 0
+    for column in ("recovered", "shadow_recall", "spots_cut"):
+        assert column in rows["lumo"]
+    assert run("evaluate", *models, *small, "--marks").code == 1
