@@ -46,7 +46,10 @@ FrameQueue::~FrameQueue()
 void FrameQueue::request(int first, int last, const QStringList& layers)
 {
     for (int frame = qMax(1, first); frame <= qMin(last, MaxFrame); ++frame)
+    {
         mRequests.insert({frame, layers}, 0);
+        mNewest.remove({frame, layers}); // what is being read shows the frame as it was
+    }
     if (!mRequests.isEmpty() && !mTimer.isActive())
         mTimer.start(0);
 }

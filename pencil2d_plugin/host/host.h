@@ -109,6 +109,7 @@ public:
 
     // Layers, top first
     virtual QVector<Layer> layers() const = 0;
+    virtual QString currentLayer() const = 0; ///< the one that is drawn on; empty while it is not known
     virtual void hideLayers(const QStringList& names) = 0;
 
     /// Add a bitmap layer on top of all others. It replaces the topmost layer of that name: the caller has
@@ -131,7 +132,8 @@ public:
 
     /// Export frames first..last with only the named layers, hidden or not (empty: all visible ones).
     /// frameExported() or exportFailed() is emitted for each, a few each time the artist is idle: never while
-    /// a button is down or the animation plays. A request for a frame that is still waiting changes nothing.
+    /// a button is down or the animation plays. A request for a frame that is still waiting changes nothing;
+    /// one for a frame that is just being read starts it again.
     virtual void requestFrames(int first, int last, const QStringList& layers = {}) = 0;
     virtual void cancelRequests() = 0;
     virtual int pendingRequests() const = 0;

@@ -220,8 +220,8 @@ void Pencil2DHost::onCurrentLayerChanged(int index)
 {
     if (mIdleness.isWorking())
         return;
-    const int row = mLayers.size() - 1 - index;
-    const bool camera = row >= 0 && row < mLayers.size() && mLayers[row].kind == Layer::Kind::Camera;
+    mCurrentRow = mLayers.size() - 1 - index;
+    const bool camera = isCamera(mCurrentRow);
     if (mOnCamera && !camera)
     {
         mCameraKnown = false;
@@ -315,14 +315,20 @@ bool Pencil2DHost::surveyLayers()
     if (!mLayersKnown)
         return false;
     mLayerAttempts = 0;
-    const int row = mRows.currentRow();
-    mOnCamera = row >= 0 && row < layers.size() && layers[row].kind == Layer::Kind::Camera;
-    if (std::equal(layers.begin(), layers.end(), mLayers.begin(), mLayers.end(), isSame))
-        return true;
+    mCurrentRow = mRows.currentRow();
+    const bool isKnown = std::equal(layers.begin(), layers.end(), mLayers.begin(), mLayers.end(), isSame);
     mLayers = layers;
+    mOnCamera = isCamera(mCurrentRow);
+    if (isKnown)
+        return true;
     mQueue.setLayers(layers);
     Q_EMIT layersChanged();
     return true;
+}
+
+bool Pencil2DHost::isCamera(int row) const
+{
+    return row >= 0 && row < mLayers.size() && mLayers[row].kind == Layer::Kind::Camera;
 }
 
 void Pencil2DHost::surveyEyes()

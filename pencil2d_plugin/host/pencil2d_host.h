@@ -45,6 +45,7 @@ public:
     FrameRange loopRange() const override { return mTransport.loopRange(); }
 
     QVector<Layer> layers() const override { return mLayers; }
+    QString currentLayer() const override { return mLayers.value(mCurrentRow).name; }
     void hideLayers(const QStringList& names) override;
     void deliverLayer(const QString& name, const QMap<int, QString>& pictures) override;
 
@@ -71,6 +72,7 @@ private:
     void onLayersMaybeChanged();
     bool surveyLayers();
     void surveyEyes();
+    bool isCamera(int row) const;
 
     Parts mParts;
     Idleness mIdleness;
@@ -91,6 +93,7 @@ private:
     QString mCameraName;
     QSize mCanvasSize;
     mutable QColor mPaper;
+    int mCurrentRow = -1; ///< of mLayers
     int mLayerAttempts = 0;
     bool mLayersKnown = false;
     bool mCameraKnown = false;

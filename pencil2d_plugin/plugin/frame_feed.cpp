@@ -11,14 +11,15 @@ constexpr int MaxKiB = 256 * 1024;
 }
 
 FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
-    : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mExports(MaxKiB)
+    : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mApart(host), mExports(MaxKiB)
 {
     connect(&host, &Host::frameChanged, this, &FrameFeed::requestCurrent);
-    connect(&host, &Host::frameExported, this, &FrameFeed::onFrameExported);
-    connect(&host, &Host::exportFailed, this, &FrameFeed::frameFailed);
+    connect(&mApart, &LayersApart::exported, this, &FrameFeed::onFrameExported);
+    connect(&mApart, &LayersApart::failed, this, &FrameFeed::frameFailed);
     connect(&host, &Host::drawingChanged, this,
             [this](int frame)
             {
+                mApart.markChanged(frame, mHost.currentLayer());
                 invalidate(frame);
                 requestCurrent();
             });
@@ -27,8 +28,7 @@ FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObjec
         invalidateAll();
         requestCurrent();
     };
-    connect(&worker, &Worker::frameNeeded, this,
-            [this](int frame) { mHost.requestFrames(frame, frame, litLayers()); });
+    connect(&worker, &Worker::frameNeeded, this, [this](int frame) { mApart.request(frame, litLayers()); });
     connect(&host, &Host::layersChanged, this, startOver);
     connect(&host, &Host::projectOpened, this, startOver);
     connect(&document, &SceneDocument::layerRolesChanged, this, startOver);
@@ -40,7 +40,7 @@ void FrameFeed::setEnabled(bool enabled)
     if (enabled)
         requestCurrent();
     else
-        mHost.cancelRequests();
+        cancelRequests();
 }
 
 FrameExport FrameFeed::lastExport(int frame) const
@@ -66,14 +66,20 @@ void FrameFeed::requestAll(int first, int last)
         if (isUpToDate(frame))
             Q_EMIT frameSent(frame);
         else
-            mHost.requestFrames(frame, frame, litLayers());
+            mApart.request(frame, litLayers());
     }
 }
 
 void FrameFeed::cancelAll()
 {
-    mHost.cancelRequests();
+    cancelRequests();
     requestCurrent();
+}
+
+void FrameFeed::cancelRequests()
+{
+    mHost.cancelRequests();
+    mApart.cancel();
 }
 
 void FrameFeed::requestCurrent()
@@ -84,14 +90,14 @@ void FrameFeed::requestCurrent()
     if (isUpToDate(frame))
         Q_EMIT frameSent(frame);
     else
-        mHost.requestFrames(frame, frame, litLayers());
+        mApart.request(frame, litLayers());
 }
 
-void FrameFeed::onFrameExported(const FrameExport& frame)
+void FrameFeed::onFrameExported(const FrameExport& frame, const DrawnLayers& layers)
 {
     if (frame.layers != litLayers())
         return;
-    mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage);
+    mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage, layers);
     mUpToDate.insert(frame.frame);
     const int cost = int(frame.image.sizeInBytes() / 1024) + 1;
     mExports.insert(frame.frame, new FrameExport(frame), cost);
@@ -111,7 +117,8 @@ void FrameFeed::invalidateAll()
     mUpToDate.swap(outdated);
     outdated.insert(mHost.currentFrame());
     mExports.clear();
-    mHost.cancelRequests();
+    cancelRequests();
+    mApart.markAllChanged();
     mWorker.dropAllFrames();
     for (const int frame : qAsConst(outdated))
         Q_EMIT frameOutdated(frame);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/host.h"
+#include "plugin/layers_apart.h"
 #include "scene/scene_document.h"
 #include "worker/worker.h"
 
@@ -11,8 +12,8 @@
 namespace lampblack
 {
 
-/// Exports the current frame and requested frames, and gives them to the worker. A frame is exported again
-/// only after its drawing has changed.
+/// Exports the current frame and requested frames, and gives them to the worker, layers apart. A frame is
+/// exported again only after its drawing has changed.
 class FrameFeed : public QObject
 {
     Q_OBJECT
@@ -43,13 +44,15 @@ Q_SIGNALS:
 
 private:
     void requestCurrent();
-    void onFrameExported(const FrameExport& frame);
+    void cancelRequests();
+    void onFrameExported(const FrameExport& frame, const DrawnLayers& layers);
     void invalidate(int frame);
     void invalidateAll();
 
     Host& mHost;
     Worker& mWorker;
     SceneDocument& mDocument;
+    LayersApart mApart;
     bool mEnabled = false;
     QSet<int> mUpToDate;
     QCache<int, FrameExport> mExports; ///< cost in KiB

@@ -10,9 +10,31 @@ namespace lampblack
 namespace
 {
 
-int kibibytes(const QImage& image)
+int kibibytes(const Drawing& drawing)
 {
-    return static_cast<int>(image.sizeInBytes() / 1024) + 1;
+    qint64 bytes = drawing.pixels.sizeInBytes();
+    for (const DrawnLayer& layer : drawing.layers)
+    {
+        bytes += layer.pixels.sizeInBytes();
+    }
+    return static_cast<int>(bytes / 1024) + 1;
+}
+
+void makeStraight(QImage& image)
+{
+    image = image.convertToFormat(QImage::Format_RGBA8888);
+}
+
+QByteArray digestOf(const Drawing& drawing)
+{
+    QVector<protocol::PlaneView> planes = {protocol::viewOf(protocol::Role::Pixels, drawing.pixels)};
+    QStringList names;
+    for (const DrawnLayer& layer : drawing.layers)
+    {
+        planes.append(protocol::viewOf(protocol::Role::Layer, layer.pixels));
+        names.append(layer.name);
+    }
+    return protocol::frameDigest(planes, names);
 }
 
 } // namespace
@@ -29,16 +51,21 @@ FrameStore::~FrameStore()
     mHashThread.waitForDone();
 }
 
-quint64 FrameStore::put(int frame, const QImage& pixels, const QTransform& camera)
+quint64 FrameStore::put(int frame, const Drawing& drawing, const QTransform& camera)
 {
     const quint64 number = ++mLastPut;
     mPendingPuts.insert(number, frame);
     mNewestPuts.insert(frame, number);
     mHashThread.start(
-        [this, number, frame, pixels, camera]
+        [this, number, frame, drawing, camera]
         {
-            const QImage straight = pixels.convertToFormat(QImage::Format_RGBA8888);
-            const QByteArray digest = protocol::frameDigest(straight);
+            Drawing straight = drawing;
+            makeStraight(straight.pixels);
+            for (DrawnLayer& layer : straight.layers)
+            {
+                makeStraight(layer.pixels);
+            }
+            const QByteArray digest = digestOf(straight);
             QMetaObject::invokeMethod(
                 this,
                 [this, number, frame, straight, camera, digest]
@@ -61,10 +88,10 @@ void FrameStore::clear()
     mDrawings.clear();
 }
 
-QImage FrameStore::drawing(const QByteArray& digest)
+Drawing FrameStore::drawing(const QByteArray& digest)
 {
-    const QImage* found = mDrawings.object(digest);
-    return found == nullptr ? QImage() : *found;
+    const Drawing* found = mDrawings.object(digest);
+    return found == nullptr ? Drawing() : *found;
 }
 
 bool FrameStore::isHashed(quint64 number) const
@@ -72,7 +99,7 @@ bool FrameStore::isHashed(quint64 number) const
     return mPendingPuts.isEmpty() || mPendingPuts.firstKey() > number;
 }
 
-void FrameStore::onHashed(quint64 number, int frame, const QImage& pixels, const QTransform& camera,
+void FrameStore::onHashed(quint64 number, int frame, const Drawing& drawing, const QTransform& camera,
                           const QByteArray& digest)
 {
     mPendingPuts.remove(number);
@@ -80,7 +107,7 @@ void FrameStore::onHashed(quint64 number, int frame, const QImage& pixels, const
     if (!superseded)
     {
         mNewestPuts.remove(frame);
-        mDrawings.insert(digest, new QImage(pixels), kibibytes(pixels));
+        mDrawings.insert(digest, new Drawing(drawing), kibibytes(drawing));
     }
     const ShownFrame before = mFrames.value(frame);
     const bool changed = !superseded && (before.digest != digest || before.camera != camera);

@@ -38,15 +38,16 @@ bool isBarrier(const protocol::Message& message)
            std::holds_alternative<protocol::Render>(message);
 }
 
-/// `newer` with the pixels of `older`, if both show the same drawing: the worker has asked for them.
+/// `newer` with the planes of `older`, if both show the same drawing: the worker has asked for them.
 Outgoing merged(const Outgoing& older, Outgoing newer)
 {
     const auto* was = std::get_if<protocol::PutFrame>(&older.message);
     auto* is = std::get_if<protocol::PutFrame>(&newer.message);
-    if (was != nullptr && is != nullptr && was->digest == is->digest && newer.pixels.isNull())
+    if (was != nullptr && is != nullptr && was->digest == is->digest && newer.planes.isEmpty())
     {
         is->planes = was->planes;
-        newer.pixels = older.pixels;
+        is->layers = was->layers;
+        newer.planes = older.planes;
     }
     return newer;
 }

@@ -5,17 +5,18 @@
 
 #include <QHash>
 #include <QImage>
+#include <QVector>
 
 #include <list>
 
 namespace lampblack
 {
 
-/// A message to the worker; `pixels` belong to a put_frame.
+/// A message to the worker; `planes` belong to a put_frame.
 struct Outgoing
 {
     protocol::Message message;
-    QImage pixels; ///< Format_RGBA8888 or null
+    QVector<QImage> planes; ///< Format_RGBA8888
 };
 
 /// Messages in order, but a newer scene, preview request or drawing of a frame replaces an older one (SPEC

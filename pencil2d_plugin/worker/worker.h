@@ -5,6 +5,7 @@
 #include "protocol/messages.h"
 #include "scene/scene.h"
 #include "user_error.h"
+#include "worker/drawn_layer.h"
 
 #include <QImage>
 #include <QObject>
@@ -15,6 +16,8 @@
 namespace lampblack
 {
 
+using protocol::Overlap;
+using protocol::OverlapPoint;
 using protocol::Show;
 using protocol::Swatch;
 
@@ -54,11 +57,12 @@ public:
     virtual void start() = 0;
     virtual void stop() = 0;
 
-    /// Frame `frame` shows `pixels` (Format_RGBA8888). `camera` maps canvas to view pixels. Returns at once:
-    /// the digest is calculated in another thread. The drawing is announced to the worker, again after each
-    /// restart, and its pixels are sent when the worker asks for them. They are kept while there is memory,
-    /// see frameNeeded().
-    virtual void putFrame(int frame, const QImage& pixels, const QTransform& camera = {}) = 0;
+    /// Frame `frame` shows `pixels` (Format_RGBA8888), which are `layers` together if these are drawn apart.
+    /// `camera` maps canvas to view pixels. Returns at once: the digest is calculated in another thread. The
+    /// drawing is announced to the worker, again after each restart, and its pixels are sent when the worker
+    /// asks for them. They are kept while there is memory, see frameNeeded().
+    virtual void putFrame(int frame, const QImage& pixels, const QTransform& camera = {},
+                          const DrawnLayers& layers = {}) = 0;
     virtual void dropFrame(int frame) = 0;
     virtual void dropAllFrames() = 0;
 
@@ -78,6 +82,8 @@ public:
     virtual void cancelPreview() = 0;
 
     virtual void requestPalette(int frame) = 0;
+    /// Ask where the drawing of a frame overlaps itself, under the current scene.
+    virtual void requestOverlaps(int frame) = 0;
 
     /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png: of the drawings that were put, or,
     /// with a `project`, of that file. Files of a project that are up to date are kept. Returns the job's
@@ -92,6 +98,7 @@ Q_SIGNALS:
     /// The worker needs the drawing of `frame`, whose pixels are no longer in memory: call putFrame() again.
     void frameNeeded(int frame);
     void paletteArrived(int frame, const QVector<lampblack::Swatch>& swatches);
+    void overlapsArrived(int frame, const QVector<lampblack::Overlap>& overlaps); ///< longest first
     void framesLit(int lit,
                    int held); ///< number of frames lit under this scene, and of frames the worker has
     void renderProgress(quint64 job, int frame, double share, int done, int total);
@@ -104,3 +111,4 @@ Q_SIGNALS:
 
 Q_DECLARE_METATYPE(lampblack::PreviewImage)
 Q_DECLARE_METATYPE(QVector<lampblack::Swatch>)
+Q_DECLARE_METATYPE(QVector<lampblack::Overlap>)

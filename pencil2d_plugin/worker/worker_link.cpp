@@ -241,11 +241,14 @@ void WorkerLink::sendPending(zmq::socket_t& socket)
             }
             continue;
         }
-        const bool planes = !outgoing.pixels.isNull();
-        socket.send(messageOf(*header), planes ? zmq::send_flags::sndmore : zmq::send_flags::dontwait);
-        if (planes)
+        const auto flagsOf = [](bool isLast)
         {
-            socket.send(messageOf(outgoing.pixels), zmq::send_flags::dontwait);
+            return isLast ? zmq::send_flags::dontwait : zmq::send_flags::sndmore;
+        };
+        socket.send(messageOf(*header), flagsOf(outgoing.planes.isEmpty()));
+        for (int i = 0; i < outgoing.planes.size(); ++i)
+        {
+            socket.send(messageOf(outgoing.planes[i]), flagsOf(i + 1 == outgoing.planes.size()));
         }
     }
 }

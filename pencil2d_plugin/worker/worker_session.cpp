@@ -41,6 +41,28 @@ QSize bounded(const QSize& size)
     return (fits ? size : size.scaled(most, Qt::KeepAspectRatio)).expandedTo(QSize(1, 1));
 }
 
+/// `layers` as they may be sent of a drawing of this size: none if they are too many or too large.
+DrawnLayers sendable(DrawnLayers layers, const QSize& size)
+{
+    constexpr int MaxLayers = 16;
+    constexpr int MaxName = 128;
+    static const QRegularExpression control(QStringLiteral("[\\x00-\\x1f\\x7f]"));
+    const qint64 pixels = qint64(size.width()) * size.height() * (1 + layers.size());
+    if (layers.size() > MaxLayers || pixels > protocol::Limits().framePixels)
+    {
+        return {};
+    }
+    for (DrawnLayer& layer : layers)
+    {
+        layer.name = layer.name.left(MaxName).replace(control, QStringLiteral(" "));
+        if (layer.pixels.size() != size)
+        {
+            return {};
+        }
+    }
+    return layers;
+}
+
 bool isOutput(const QString& output)
 {
     static const QRegularExpression pattern(QStringLiteral("\\A/[^%\\x00-\\x1f\\x7f]*%0[1-9]d\\.png\\z"));
@@ -91,7 +113,8 @@ void WorkerSession::stop()
     updateState();
 }
 
-void WorkerSession::putFrame(int frame, const QImage& pixels, const QTransform& camera)
+void WorkerSession::putFrame(int frame, const QImage& pixels, const QTransform& camera,
+                             const DrawnLayers& layers)
 {
     const protocol::Limits limits;
     const bool known = mFrameStore.frames().contains(frame);
@@ -113,7 +136,7 @@ void WorkerSession::putFrame(int frame, const QImage& pixels, const QTransform& 
                         QStringLiteral("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height())});
         return;
     }
-    mFrameStore.put(frame, pixels, camera);
+    mFrameStore.put(frame, {pixels, mTakesLayers ? sendable(layers, pixels.size()) : DrawnLayers()}, camera);
 }
 
 void WorkerSession::dropFrame(int frame)
@@ -121,6 +144,7 @@ void WorkerSession::dropFrame(int frame)
     const bool known = mFrameStore.frames().contains(frame);
     mFrameStore.drop(frame);
     mPaletteRequests.remove(frame);
+    mOverlapRequests.remove(frame);
     if (known)
     {
         sendMessage(protocol::DropFrame{frame});
@@ -132,6 +156,7 @@ void WorkerSession::dropAllFrames()
     const QList<int> frames = mFrameStore.frames().keys();
     mFrameStore.clear();
     mPaletteRequests.clear();
+    mOverlapRequests.clear();
     mNeeded.clear();
     for (const int frame : frames)
     {
@@ -191,7 +216,13 @@ void WorkerSession::cancelPreview()
 void WorkerSession::requestPalette(int frame)
 {
     mPaletteRequests.insert(frame, 0);
-    sendPaletteRequests();
+    sendQuestions();
+}
+
+void WorkerSession::requestOverlaps(int frame)
+{
+    mOverlapRequests.insert(frame, 0);
+    sendQuestions();
 }
 
 quint64 WorkerSession::render(const QString& frames, const QString& output, Quality quality,
@@ -338,6 +369,7 @@ void WorkerSession::handleIncoming()
                 else if constexpr (std::is_same_v<Kind, protocol::Welcome> ||
                                    std::is_same_v<Kind, protocol::NeedFrame> ||
                                    std::is_same_v<Kind, protocol::Palette> ||
+                                   std::is_same_v<Kind, protocol::Overlaps> ||
                                    std::is_same_v<Kind, protocol::Status> ||
                                    std::is_same_v<Kind, protocol::Error>)
                 {

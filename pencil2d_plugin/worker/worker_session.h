@@ -31,7 +31,8 @@ public:
     State state() const override { return mState; }
     void start() override;
     void stop() override;
-    void putFrame(int frame, const QImage& pixels, const QTransform& camera = {}) override;
+    void putFrame(int frame, const QImage& pixels, const QTransform& camera = {},
+                  const DrawnLayers& layers = {}) override;
     void dropFrame(int frame) override;
     void dropAllFrames() override;
     void setScene(const Scene& scene) override;
@@ -40,6 +41,7 @@ public:
     void requestPreview(int frame, Show show, const QRectF& crop, const QSize& size) override;
     void cancelPreview() override;
     void requestPalette(int frame) override;
+    void requestOverlaps(int frame) override;
     quint64 render(const QString& frames, const QString& output, Quality quality,
                    const QString& project = {}) override;
     void cancelRender(quint64 job) override;
@@ -62,13 +64,13 @@ private:
     void handleIncoming();
     void updateState();
 
-    void sendMessage(const protocol::Message& message, const QImage& pixels = {});
+    void sendMessage(const protocol::Message& message, const QVector<QImage>& planes = {});
     void sendAll();
     void announceFrame(int frame);
     void sendPixels(int frame, const QByteArray& digest);
     void sendScene();
     void sendPreviewRequest();
-    void sendPaletteRequests();
+    void sendQuestions();
     void sendJobs();
     void onFrameHashed(int frame, bool changed);
     quint64 refuseJob(const UserError& error);
@@ -77,6 +79,10 @@ private:
     void handle(const protocol::NeedFrame& need);
     void handle(const protocol::Image& image, const QImage& picture);
     void handle(const protocol::Palette& palette);
+    void handle(const protocol::Overlaps& overlaps);
+    /// Whether this is the awaited answer about the current drawing. Asks again if the drawing has changed.
+    bool isAnswer(QMap<int, quint64>& requests, int frame, quint64 request, const QByteArray& digest);
+    void setTakesLayers(bool takes);
     void handle(const protocol::Status& status);
     void handle(const protocol::Error& error);
 
@@ -90,6 +96,8 @@ private:
     quint64 mRevision = 0; ///< the last one sent to any worker process
 
     FrameStore mFrameStore;
+    bool mTakesLayers = true; ///< the worker takes the layers of a drawing apart
+    bool mTellsOverlaps = true;
     QSet<QByteArray> mNeeded; ///< digests whose pixels the worker waits for
     std::optional<Scene> mScene;
     QSet<quint64> mSceneRevisions; ///< revisions under which mScene was sent
@@ -97,6 +105,7 @@ private:
     std::optional<PreviewRequest> mPreview;
     ImageRank mShownRank;                ///< rank of the last image that was emitted
     QMap<int, quint64> mPaletteRequests; ///< request by frame, 0 while it is not sent
+    QMap<int, quint64> mOverlapRequests; ///< as well
     RenderJobs mJobs;
 };
 

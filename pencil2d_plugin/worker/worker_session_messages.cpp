@@ -24,9 +24,9 @@ bool endsJob(const protocol::Error& error)
 
 } // namespace
 
-void WorkerSession::sendMessage(const protocol::Message& message, const QImage& pixels)
+void WorkerSession::sendMessage(const protocol::Message& message, const QVector<QImage>& planes)
 {
-    if (mGreeted && !mLink->send({message, pixels}))
+    if (mGreeted && !mLink->send({message, planes}))
     {
         mProcess.restart(QStringLiteral("It did not read any more."));
     }
@@ -44,33 +44,48 @@ void WorkerSession::sendAll()
     {
         mPreview->request = 0;
     }
-    for (quint64& request : mPaletteRequests)
+    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests})
     {
-        request = 0;
+        for (quint64& request : *requests)
+        {
+            request = 0;
+        }
     }
     sendPreviewRequest();
-    sendPaletteRequests();
+    sendQuestions();
     sendJobs();
 }
 
 void WorkerSession::announceFrame(int frame)
 {
     const ShownFrame shown = mFrameStore.frames().value(frame);
-    sendMessage(protocol::PutFrame{frame, shown.digest, shown.camera, {}});
+    sendMessage(protocol::PutFrame{frame, shown.digest, shown.camera, {}, {}});
 }
 
 void WorkerSession::sendPixels(int frame, const QByteArray& digest)
 {
-    const QImage pixels = mFrameStore.drawing(digest);
-    if (pixels.isNull())
+    const Drawing drawing = mFrameStore.drawing(digest);
+    if (drawing.pixels.isNull())
     {
         mNeeded.insert(digest);
         Q_EMIT frameNeeded(frame);
         return;
     }
     mNeeded.remove(digest);
-    const protocol::Plane plane = protocol::viewOf(protocol::Role::Pixels, pixels).plane;
-    sendMessage(protocol::PutFrame{frame, digest, mFrameStore.frames().value(frame).camera, {plane}}, pixels);
+    protocol::PutFrame put = {frame, digest, mFrameStore.frames().value(frame).camera, {}, {}};
+    QVector<QImage> planes;
+    const auto add = [&put, &planes](protocol::Role role, const QImage& image)
+    {
+        put.planes.append(protocol::viewOf(role, image).plane);
+        planes.append(image);
+    };
+    add(protocol::Role::Pixels, drawing.pixels);
+    for (const DrawnLayer& layer : drawing.layers)
+    {
+        add(protocol::Role::Layer, layer.pixels);
+        put.layers.append(layer.name);
+    }
+    sendMessage(put, planes);
 }
 
 void WorkerSession::sendScene()
@@ -103,15 +118,27 @@ void WorkerSession::sendPreviewRequest()
     }
 }
 
-void WorkerSession::sendPaletteRequests()
+void WorkerSession::sendQuestions()
 {
-    for (auto palette = mPaletteRequests.begin(); mGreeted && palette != mPaletteRequests.end(); ++palette)
+    const auto send = [this](QMap<int, quint64>& requests, auto makeQuestion)
     {
-        if (palette.value() == 0 && mFrameStore.frames().contains(palette.key()))
+        for (auto asked = requests.begin(); asked != requests.end(); ++asked)
         {
-            palette.value() = ++mRequest;
-            sendMessage(protocol::GetPalette{mRequest, palette.key()});
+            if (asked.value() == 0 && mFrameStore.frames().contains(asked.key()))
+            {
+                asked.value() = ++mRequest;
+                sendMessage(makeQuestion(asked.key()));
+            }
         }
+    };
+    if (!mGreeted)
+    {
+        return;
+    }
+    send(mPaletteRequests, [this](int frame) { return protocol::GetPalette{mRequest, frame}; });
+    if (mTellsOverlaps)
+    {
+        send(mOverlapRequests, [this](int frame) { return protocol::GetOverlaps{mRequest, frame}; });
     }
 }
 
@@ -163,15 +190,40 @@ void WorkerSession::onFrameHashed(int frame, bool changed)
     {
         sendPreviewRequest();
     }
-    sendPaletteRequests();
+    sendQuestions();
     sendJobs();
 }
 
-void WorkerSession::handle(const protocol::Welcome& /*welcome*/)
+void WorkerSession::handle(const protocol::Welcome& welcome)
 {
+    constexpr int MinorWithOverlaps = 2;
+    mTellsOverlaps = welcome.minor >= MinorWithOverlaps;
+    setTakesLayers(welcome.capabilities.contains(QStringLiteral("layers")));
     mGreeted = true;
     sendAll();
     updateState();
+}
+
+void WorkerSession::setTakesLayers(bool takes)
+{
+    if (std::exchange(mTakesLayers, takes) == takes)
+    {
+        return;
+    }
+    const QMap<int, ShownFrame> frames = mFrameStore.frames();
+    for (auto shown = frames.begin(); shown != frames.end(); ++shown)
+    {
+        const Drawing drawing = mFrameStore.drawing(shown->digest);
+        mFrameStore.drop(shown.key());
+        if (takes || drawing.pixels.isNull())
+        {
+            Q_EMIT frameNeeded(shown.key());
+        }
+        else
+        {
+            putFrame(shown.key(), drawing.pixels, shown->camera);
+        }
+    }
 }
 
 void WorkerSession::handle(const protocol::NeedFrame& need)
@@ -202,18 +254,36 @@ void WorkerSession::handle(const protocol::Image& image, const QImage& picture)
 
 void WorkerSession::handle(const protocol::Palette& palette)
 {
-    if (mPaletteRequests.value(palette.frame) != palette.request)
+    if (isAnswer(mPaletteRequests, palette.frame, palette.request, palette.digest))
     {
-        return;
+        Q_EMIT paletteArrived(palette.frame, palette.swatches);
     }
-    if (mFrameStore.frames().value(palette.frame).digest != palette.digest)
+}
+
+void WorkerSession::handle(const protocol::Overlaps& overlaps)
+{
+    if (isAnswer(mOverlapRequests, overlaps.frame, overlaps.request, overlaps.digest))
     {
-        mPaletteRequests[palette.frame] = 0; // the drawing has changed meanwhile
-        sendPaletteRequests();
-        return;
+        Q_EMIT overlapsArrived(overlaps.frame, overlaps.overlaps);
     }
-    mPaletteRequests.remove(palette.frame);
-    Q_EMIT paletteArrived(palette.frame, palette.swatches);
+}
+
+bool WorkerSession::isAnswer(QMap<int, quint64>& requests, int frame, quint64 request,
+                             const QByteArray& digest)
+{
+    const auto asked = requests.find(frame);
+    if (asked == requests.end() || asked.value() != request)
+    {
+        return false;
+    }
+    if (mFrameStore.frames().value(frame).digest != digest)
+    {
+        asked.value() = 0;
+        sendQuestions();
+        return false;
+    }
+    requests.erase(asked);
+    return true;
 }
 
 void WorkerSession::handle(const protocol::Status& status)

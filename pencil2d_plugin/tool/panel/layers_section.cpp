@@ -7,6 +7,8 @@
 #include <QGridLayout>
 #include <QLabel>
 
+#include <algorithm>
+
 namespace lampblack
 {
 
@@ -22,6 +24,12 @@ LayersSection::LayersSection(Host& host, SceneDocument& document, QWidget* paren
     setVisible(host.can(Host::Ability::Layers));
     connect(&host, &Host::layersChanged, this, &LayersSection::refresh);
     connect(&document, &SceneDocument::layerRolesChanged, this, &LayersSection::refresh);
+    connect(&document, &SceneDocument::sceneChanged, this,
+            [this]
+            {
+                if (mDocument.scene().depth.layers != mShownDepth.layers)
+                    refresh();
+            });
     refresh();
 }
 
@@ -39,36 +47,86 @@ void LayersSection::refresh()
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setSpacing(3);
     grid->setColumnStretch(0, 1);
+    mShownDepth = mDocument.scene().depth;
     const QMap<QString, QString> roles = mDocument.layerRoles();
-    int row = 0;
+    QStringList drawn;
     const QVector<Layer> layers = mHost.layers();
     for (const Layer& layer : layers)
     {
         const bool isDrawing = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
-        if (!isDrawing || isResult(layer.name, roles))
-            continue;
-        auto* name = new QLabel(mRows);
-        name->setTextFormat(Qt::PlainText);
-        name->setText(layer.name);
-        name->setToolTip(layer.name);
-        name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-        auto* role = new QComboBox(mRows);
-        role->setObjectName(QStringLiteral("lampblack.panel.layer.") + layer.name);
-        role->setAccessibleName(tr("Role of layer %1").arg(layer.name));
-        role->setToolTip(tr("Characters and their lines are lit; a background stays as drawn."));
-        role->addItem(tr("Character"), Character);
-        role->addItem(tr("Line"), QStringLiteral("line"));
-        role->addItem(tr("Background"), QStringLiteral("background"));
-        role->setCurrentIndex(qMax(0, role->findData(roleOf(layer.name, roles))));
-        ignoreWheelWithoutFocus(role);
-        const QString layerName = layer.name;
-        connect(role, qOverload<int>(&QComboBox::activated), this,
-                [this, layerName, role](int index) { setRole(layerName, role->itemData(index).toString()); });
-        grid->addWidget(name, row, 0);
-        grid->addWidget(role, row, 1);
-        ++row;
+        if (isDrawing && !isResult(layer.name, roles))
+            drawn.append(layer.name);
+    }
+    const auto isLit = [&roles](const QString& layer)
+    {
+        return roleOf(layer, roles) != QLatin1String("background");
+    };
+    const bool hasSeveral = std::count_if(drawn.begin(), drawn.end(), isLit) > 1;
+    int row = 0;
+    for (const QString& layer : qAsConst(drawn))
+    {
+        grid->addWidget(nameLabel(layer), row, 0);
+        grid->addWidget(roleChoice(layer, roleOf(layer, roles)), row++, 1);
+        if (hasSeveral && isLit(layer))
+            grid->addWidget(bodyChoice(layer), row++, 0, 1, 2);
     }
     body()->addWidget(mRows);
+}
+
+QWidget* LayersSection::nameLabel(const QString& layer)
+{
+    auto* name = new QLabel(mRows);
+    name->setTextFormat(Qt::PlainText);
+    name->setText(layer);
+    name->setToolTip(layer);
+    name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    return name;
+}
+
+QWidget* LayersSection::roleChoice(const QString& layer, const QString& role)
+{
+    auto* choice = new QComboBox(mRows);
+    choice->setObjectName(QStringLiteral("lampblack.panel.layer.") + layer);
+    choice->setAccessibleName(tr("Role of layer %1").arg(layer));
+    choice->setToolTip(tr("Characters and their lines are lit; a background stays as drawn."));
+    choice->addItem(tr("Character"), Character);
+    choice->addItem(tr("Line"), QStringLiteral("line"));
+    choice->addItem(tr("Background"), QStringLiteral("background"));
+    choice->setCurrentIndex(qMax(0, choice->findData(role)));
+    ignoreWheelWithoutFocus(choice);
+    connect(choice, qOverload<int>(&QComboBox::activated), this,
+            [this, layer, choice](int index) { setRole(layer, choice->itemData(index).toString()); });
+    return choice;
+}
+
+QWidget* LayersSection::bodyChoice(const QString& layer)
+{
+    auto* choice = new QComboBox(mRows);
+    choice->setObjectName(QStringLiteral("lampblack.panel.body.") + layer);
+    choice->setAccessibleName(tr("Depth of layer %1").arg(layer));
+    choice->setToolTip(tr("How the layer stands on the layers below it.\n"
+                          "Automatic: found from how they overlap.\n"
+                          "In front: round by itself, it throws a shadow on what is below.\n"
+                          "Same body: one round body together with the layer below.\n"
+                          "Painted on: flat on the layer below, such as a pattern."));
+    const auto add = [choice](const QString& text, BodyChoice body)
+    {
+        choice->addItem(text, int(body));
+    };
+    add(tr("Depth: automatic"), BodyChoice::Auto);
+    add(tr("Depth: in front"), BodyChoice::Own);
+    add(tr("Depth: same body"), BodyChoice::Below);
+    add(tr("Depth: painted on"), BodyChoice::Flat);
+    choice->setCurrentIndex(qMax(0, choice->findData(int(bodyOf(mDocument.scene(), layer)))));
+    choice->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    ignoreWheelWithoutFocus(choice);
+    connect(choice, qOverload<int>(&QComboBox::activated), this,
+            [this, layer, choice](int index)
+            {
+                const auto body = static_cast<BodyChoice>(choice->itemData(index).toInt());
+                mDocument.edit(tr("Change Layer Depth"), withBody(mDocument.scene(), layer, body));
+            });
+    return choice;
 }
 
 void LayersSection::setRole(const QString& layer, const QString& role)
@@ -85,6 +143,26 @@ void LayersSection::setRole(const QString& layer, const QString& role)
     }
     roles.insert(layer, role);
     mDocument.setLayerRoles(roles);
+}
+
+BodyChoice bodyOf(const Scene& scene, const QString& layer)
+{
+    const QVector<LayerBody>& bodies = scene.depth.layers;
+    const auto* found = std::find_if(bodies.begin(), bodies.end(),
+                                     [&layer](const LayerBody& body) { return body.layer == layer; });
+    return found == bodies.end() ? BodyChoice::Auto : found->body;
+}
+
+Scene withBody(Scene scene, const QString& layer, BodyChoice body)
+{
+    QVector<LayerBody>& bodies = scene.depth.layers;
+    auto* found = std::find_if(bodies.begin(), bodies.end(),
+                               [&layer](const LayerBody& each) { return each.layer == layer; });
+    if (found != bodies.end())
+        found->body = body;
+    else if (body != BodyChoice::Auto)
+        bodies.append({layer, body, {}});
+    return scene;
 }
 
 } // namespace lampblack

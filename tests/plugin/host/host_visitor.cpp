@@ -202,6 +202,7 @@ private Q_SLOTS:
         QCOMPARE(kinds, QVector<Layer::Kind>({Layer::Kind::Bitmap, Layer::Kind::Bitmap, Layer::Kind::Sound,
                                               Layer::Kind::Vector, Layer::Kind::Camera}));
         QCOMPARE(mRows.currentRow(), 1);
+        QCOMPARE(mHost->currentLayer(), QStringLiteral("Colours"));
     }
 
     void exportIsTheDrawing()
@@ -244,6 +245,7 @@ private Q_SLOTS:
         QSignalSpy drawn(mHost, &Host::drawingChanged);
         QTest::mouseClick(mParts.layerCells, Qt::LeftButton, Qt::NoModifier, QPoint(80, 30));
         QTest::qWait(300);
+        QCOMPARE(mHost->currentLayer(), QStringLiteral("Ink"));
         QTest::mouseClick(mParts.layerCells, Qt::LeftButton, Qt::NoModifier, QPoint(80, 50));
         QTest::qWait(300);
         QCOMPARE(changed.size() + drawn.size(), 0);

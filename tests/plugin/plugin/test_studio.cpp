@@ -42,8 +42,8 @@ private Q_SLOTS:
         mHost->open();
         QCOMPARE(mWorker->mStarted, 1);
         QCOMPARE(mWorker->mScenes.last(), defaultScene(mHost->canvasSize()));
-        QCOMPARE(mHost->mRequests.size(), 1);
-        QCOMPARE(mHost->mRequests[0].layers, (QStringList{QStringLiteral("Line"), QStringLiteral("Hills")}));
+        QCOMPARE(mHost->mRequests.size(), 3); // each layer, and both together
+        QCOMPARE(mHost->mRequests[2].layers, (QStringList{QStringLiteral("Line"), QStringLiteral("Hills")}));
         QCOMPARE(mWorker->mPut, QVector<int>{1});
         QCOMPARE(mWorker->mPalettes, QVector<int>{1});
         QTRY_COMPARE(mWorker->mPreviews.size(), 1);
@@ -111,9 +111,9 @@ private Q_SLOTS:
         openLit();
         const int requests = mHost->mRequests.size();
         Q_EMIT mWorker->frameNeeded(3);
-        QCOMPARE(mHost->mRequests.size(), requests + 1);
+        QCOMPARE(mHost->mRequests.size(), requests + 3);
         QCOMPARE(mHost->mRequests.last().first, 3);
-        QCOMPARE(mHost->mRequests.last().layers, mHost->mRequests.first().layers);
+        QCOMPARE(mHost->mRequests.last().layers, mHost->mRequests[requests - 1].layers);
         QCOMPARE(mWorker->mPut, (QVector<int>{1, 3}));
     }
 

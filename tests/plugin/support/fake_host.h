@@ -66,6 +66,7 @@ public:
     bool isPlaying() const override { return false; }
     FrameRange loopRange() const override { return mLoop; }
     QVector<Layer> layers() const override { return mLayers; }
+    QString currentLayer() const override { return mCurrentLayer; }
     void hideLayers(const QStringList& names) override
     {
         for (Layer& layer : mLayers)
@@ -128,6 +129,7 @@ public:
     QColor mPaper = Qt::white;
     bool mModified = false;
     QVector<Layer> mLayers;
+    QString mCurrentLayer;
     QVector<Ability> mCannot;
     int mFrame = 1;
     FrameRange mLoop{1, 8};

@@ -23,7 +23,11 @@ public:
     State state() const override { return mState; }
     void start() override { ++mStarted; }
     void stop() override { ++mStopped; }
-    void putFrame(int frame, const QImage&, const QTransform&) override { mPut.append(frame); }
+    void putFrame(int frame, const QImage&, const QTransform&, const DrawnLayers& layers) override
+    {
+        mPut.append(frame);
+        mLayers.append(layers);
+    }
     /// What each drawing put is known by: how many there were of its frame.
     QByteArray digestOf(int frame) const { return QByteArray::number(mPut.count(frame)); }
     void dropFrame(int) override {}
@@ -41,6 +45,7 @@ public:
     }
     void cancelPreview() override { ++mPreviewsCancelled; }
     void requestPalette(int frame) override { mPalettes.append(frame); }
+    void requestOverlaps(int frame) override { mOverlaps.append(frame); }
     quint64 render(const QString& frames, const QString& output, Quality quality,
                    const QString& project) override
     {
@@ -87,12 +92,14 @@ public:
     int mStarted = 0;
     int mStopped = 0;
     QVector<int> mPut;
-    int mDropped = 0; ///< how often all frames were
+    QVector<DrawnLayers> mLayers; ///< of each that was put
+    int mDropped = 0;             ///< how often all frames were
     QVector<Scene> mScenes;
     QVector<PreviewRequest> mPreviews;
     int mPreviewsCancelled = 0;
     QVector<int> mPalettes;
-    QString mFrames; ///< of the last job, as are the next three
+    QVector<int> mOverlaps; ///< frames whose overlaps were asked for
+    QString mFrames;        ///< of the last job, as are the next three
     QString mOutput;
     Quality mQuality = Quality::Low;
     QString mProject; ///< that is rendered from its file

@@ -149,6 +149,33 @@ private Q_SLOTS:
         QVERIFY(!find<QSlider>("power")->isEnabled());
     }
 
+    void theDepthOfALayerIsChosenAndUndone()
+    {
+        const auto choice = [this]
+        {
+            return find<QComboBox>("body.Line");
+        };
+        QCOMPARE(choice()->currentData().toInt(), int(BodyChoice::Auto));
+        Q_EMIT choice()->activated(choice()->findData(int(BodyChoice::Own)));
+        QCOMPARE(mDocument->scene().depth.layers,
+                 (QVector<LayerBody>{{QStringLiteral("Line"), BodyChoice::Own, {}}}));
+        QCOMPARE(choice()->currentData().toInt(), int(BodyChoice::Own));
+        Q_EMIT choice()->activated(choice()->findData(int(BodyChoice::Flat)));
+        QCOMPARE(mDocument->scene().depth.layers.size(), 1);
+        mDocument->undoStack()->undo();
+        QCOMPARE(choice()->currentData().toInt(), int(BodyChoice::Own));
+        mDocument->undoStack()->undo();
+        QVERIFY(mDocument->scene().depth.layers.isEmpty());
+    }
+
+    void aLayerThatIsAloneHasNoDepthToChoose()
+    {
+        QVERIFY(find<QComboBox>("body.Line") && find<QComboBox>("body.Hills"));
+        auto* role = find<QComboBox>("layer.Hills");
+        Q_EMIT role->activated(role->findData(QStringLiteral("background")));
+        QVERIFY(!find<QComboBox>("body.Line") && !find<QComboBox>("body.Hills"));
+    }
+
     void theFloorBoxPutsAFloorUnderTheFeet()
     {
         find<QCheckBox>("floor")->click();

@@ -146,6 +146,13 @@ private:
                 R"("type":"palette","request":%1,"frame":%2,"digest":"%3","swatches":[{"colour":"#ff0000","pixels":7}])",
                 {number(header, "request"), QString::number(frame), mShown.value(frame)});
         }
+        else if (type == QLatin1String("get_overlaps"))
+        {
+            const int frame = header.value(QLatin1String("frame")).toInt();
+            send(
+                R"("type":"overlaps","request":%1,"frame":%2,"digest":"%3","overlaps":[{"points":[{"x":1,"y":2},{"x":3,"y":2}],"front":"right","amount":4}])",
+                {number(header, "request"), QString::number(frame), mShown.value(frame)});
+        }
         else if (type == QLatin1String("render"))
         {
             render(header);
@@ -174,10 +181,11 @@ private:
             return;
         }
         mGreeted = true;
-        send(QStringLiteral(
-                 R"("type":"welcome","minor":3,"session":"%1","worker_version":"fake","status_ms":%2)"),
-             {QString::number(QCoreApplication::applicationPid()).rightJustified(32, QLatin1Char('0')),
-              QString::number(StatusMs)});
+        send(
+            QStringLiteral(
+                R"("type":"welcome","minor":3,"session":"%1","worker_version":"fake","capabilities":[%2],"status_ms":%3)"),
+            {QString::number(QCoreApplication::applicationPid()).rightJustified(32, QLatin1Char('0')),
+             mScript == "no_layers" ? QString() : QStringLiteral("\"layers\""), QString::number(StatusMs)});
         if (mScript == "babbles")
         {
             babble();

@@ -36,7 +36,7 @@ QStringList typesIn(Outbox& outbox)
 
 protocol::PutFrame shows(int frame, const QByteArray& digest)
 {
-    return {frame, digest, {}, {}};
+    return {frame, digest, {}, {}, {}};
 }
 
 } // namespace
@@ -84,12 +84,12 @@ private Q_SLOTS:
     void pixelsThatWereAskedForAreNotLostToAnAnnouncement()
     {
         Outbox outbox;
-        outbox.push({shows(1, "a"), sheet(0xff0000)});
+        outbox.push({shows(1, "a"), {sheet(0xff0000)}});
         outbox.push({shows(1, "a"), {}});
-        QVERIFY(!outbox.takeFirst().pixels.isNull());
-        outbox.push({shows(1, "a"), sheet(0xff0000)});
+        QVERIFY(!outbox.takeFirst().planes.isEmpty());
+        outbox.push({shows(1, "a"), {sheet(0xff0000)}});
         outbox.push({shows(1, "b"), {}});
-        QVERIFY(outbox.takeFirst().pixels.isNull());
+        QVERIFY(outbox.takeFirst().planes.isEmpty());
         QVERIFY(outbox.isEmpty());
     }
 
@@ -180,29 +180,29 @@ private Q_SLOTS:
     {
         FrameStore store;
         const QSignalSpy shown(&store, &FrameStore::frameHashed);
-        store.put(1, sheet(0xff0000), {});
+        store.put(1, {sheet(0xff0000), {}}, {});
         QVERIFY(!store.isHashed(store.lastPut()));
         QTRY_VERIFY(store.isHashed(store.lastPut()));
         const QByteArray red = protocol::frameDigest(sheet(0xff0000));
         QCOMPARE(store.frames().value(1).digest, red);
-        store.put(1, sheet(0x00ff00), {});
+        store.put(1, {sheet(0x00ff00), {}}, {});
         QCOMPARE(store.frames().value(1).digest, red);
         QTRY_COMPARE(shown.count(), 2);
         QCOMPARE(store.frames().value(1).digest, protocol::frameDigest(sheet(0x00ff00)));
-        QCOMPARE(store.drawing(red), sheet(0xff0000));
+        QCOMPARE(store.drawing(red).pixels, sheet(0xff0000));
     }
 
     void theSameDrawingAgainChangesNothing()
     {
         FrameStore store;
         const QSignalSpy shown(&store, &FrameStore::frameHashed);
-        store.put(1, sheet(0xff0000), {});
-        store.put(2, sheet(0xff0000), {});
+        store.put(1, {sheet(0xff0000), {}}, {});
+        store.put(2, {sheet(0xff0000), {}}, {});
         QTRY_COMPARE(shown.count(), 2);
-        store.put(1, sheet(0xff0000), {});
+        store.put(1, {sheet(0xff0000), {}}, {});
         QTRY_COMPARE(shown.count(), 3);
         QCOMPARE(shown[2], (QList<QVariant>{1, false}));
-        store.put(1, sheet(0xff0000), QTransform::fromTranslate(3, 0));
+        store.put(1, {sheet(0xff0000), {}}, QTransform::fromTranslate(3, 0));
         QTRY_COMPARE(shown.count(), 4);
         QCOMPARE(shown[3], (QList<QVariant>{1, true}));
     }
@@ -210,10 +210,31 @@ private Q_SLOTS:
     void whatIsDroppedWhileItIsHashedStaysDropped()
     {
         FrameStore store;
-        store.put(1, sheet(0xff0000, 512), {});
+        store.put(1, {sheet(0xff0000, 512), {}}, {});
         store.drop(1);
         QTRY_VERIFY(store.isHashed(store.lastPut()));
         QVERIFY(store.frames().isEmpty());
+    }
+
+    void aDrawingHasTheDigestOfItsLayersToo()
+    {
+        FrameStore store;
+        const QSignalSpy shown(&store, &FrameStore::frameHashed);
+        const DrawnLayers layers = {{QStringLiteral("body"), sheet(0xff0000)},
+                                    {QStringLiteral("arm"), sheet(0x00ff00)}};
+        store.put(1, {sheet(0xff0000), {}}, {});
+        store.put(2, {sheet(0xff0000), layers}, {});
+        store.put(3, {sheet(0xff0000), {layers[1], layers[0]}}, {});
+        QTRY_COMPARE(shown.count(), 3);
+        const QByteArray apart = store.frames().value(2).digest;
+        QVERIFY(apart != store.frames().value(1).digest);
+        QVERIFY(apart != store.frames().value(3).digest);
+        QCOMPARE(store.drawing(apart).layers.size(), 2);
+        QCOMPARE(store.drawing(apart).layers[1].name, QStringLiteral("arm"));
+        QCOMPARE(apart, protocol::frameDigest({protocol::viewOf(protocol::Role::Pixels, sheet(0xff0000)),
+                                               protocol::viewOf(protocol::Role::Layer, layers[0].pixels),
+                                               protocol::viewOf(protocol::Role::Layer, layers[1].pixels)},
+                                              {QStringLiteral("body"), QStringLiteral("arm")}));
     }
 
     void theDrawingLeastLatelyUsedIsLetGo()
@@ -222,12 +243,12 @@ private Q_SLOTS:
         const QSignalSpy shown(&store, &FrameStore::frameHashed);
         for (int frame = 1; frame <= 4; ++frame)
         {
-            store.put(frame, sheet(QRgb(0xff0000 + frame), 500), {}); // 1 MB each
+            store.put(frame, {sheet(QRgb(0xff0000 + frame), 500), {}}, {}); // 1 MB each
             QTRY_COMPARE(shown.count(), frame);
-            QVERIFY(!store.drawing(store.frames().value(1).digest).isNull());
+            QVERIFY(!store.drawing(store.frames().value(1).digest).pixels.isNull());
         }
-        QVERIFY(store.drawing(store.frames().value(2).digest).isNull());
-        QVERIFY(!store.drawing(store.frames().value(4).digest).isNull());
+        QVERIFY(store.drawing(store.frames().value(2).digest).pixels.isNull());
+        QVERIFY(!store.drawing(store.frames().value(4).digest).pixels.isNull());
     }
 
     void theInterpreterIsNamedByVariableThenNoteThenSourceTree()

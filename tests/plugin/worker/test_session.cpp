@@ -3,6 +3,7 @@
 
 #include <QElapsedTimer>
 #include <QFile>
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QSignalSpy>
@@ -254,6 +255,49 @@ private Q_SLOTS:
         session->putFrame(1, sheet(Qt::red));
         QTRY_COMPARE(palette.count(), 1);
         QCOMPARE(palette[0][1].value<QVector<Swatch>>().value(0).colour, QStringLiteral("#ff0000"));
+    }
+
+    void overlapsAreAnswered()
+    {
+        const auto session = open("good");
+        const QSignalSpy answered(session.get(), &Worker::overlapsArrived);
+        session->requestOverlaps(1);
+        session->putFrame(1, sheet(Qt::red));
+        QTRY_COMPARE(answered.count(), 1);
+        const Overlap overlap = answered[0][1].value<QVector<Overlap>>().value(0);
+        QCOMPARE(overlap.points.size(), 2);
+        QCOMPARE(overlap.points[1].x, 3.0);
+        QCOMPARE(overlap.front, FrontSide::Right);
+    }
+
+    void layersAreSentApart_data()
+    {
+        QTest::addColumn<QByteArray>("script");
+        QTest::addColumn<QStringList>("layers");
+        QTest::newRow("to a worker that takes them")
+            << QByteArray("good") << QStringList{QStringLiteral("body"), QStringLiteral("left arm")};
+        QTest::newRow("but not to another") << QByteArray("no_layers") << QStringList();
+    }
+
+    void layersAreSentApart()
+    {
+        QFETCH(QByteArray, script);
+        QFETCH(QStringList, layers);
+        const auto session = open(script);
+        lookAtOne(*session);
+        session->putFrame(
+            1, sheet(Qt::red), {},
+            {{QStringLiteral("body"), sheet(Qt::red)}, {QStringLiteral("left\narm"), sheet(Qt::green)}});
+        QTRY_VERIFY(!mImages.isEmpty() && session->isCurrent(mImages.last()));
+        QJsonObject sent;
+        const QList<QJsonObject> headers = received();
+        for (const QJsonObject& header : headers)
+        {
+            if (!header.value(QLatin1String("planes")).toArray().isEmpty())
+                sent = header;
+        }
+        QCOMPARE(sent.value(QLatin1String("layers")).toVariant().toStringList(), layers);
+        QCOMPARE(sent.value(QLatin1String("planes")).toArray().size(), 1 + layers.size());
     }
 
     void aRenderIsFinishedByTheNextWorker()
