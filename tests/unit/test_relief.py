@@ -14,6 +14,7 @@ from scipy import ndimage
 from lampblack.errors import LampblackError
 from lampblack.surface.export import save_mesh
 from lampblack.surface.relief import Relief, build_relief, check_relief
+from lampblack.surface.visible import visible_faces
 
 Heights = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -203,3 +204,46 @@ def test_export_fails_with_advice_and_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(LampblackError, match="sound"):
         save_mesh(Relief(relief.vertices, relief.faces[2:]), tmp_path / "torn.ply")
     assert [p.name for p in tmp_path.iterdir()] == ["taken.ply"]
+
+
+def band_over_plate(size: int = 120) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    """A bar across a plate, 40 pixels above it; both end at the canvas's margin."""
+    height = np.zeros((size, size), np.float32)
+    mask = np.zeros((size, size), bool)
+    mask[10:-10, 10:-10] = True
+    height[10:-10, 10:-10] = 20
+    height[50:70, 10:-10] = 60
+    return height, mask
+
+
+@pytest.mark.parametrize("stride", [1, 2, 4])
+def test_light_passes_beneath_what_is_in_front(stride: int) -> None:
+    height, mask = band_over_plate()
+    relief = build_relief(height, mask, stride=stride)
+    assert check_relief(relief) == []
+    half = len(relief.vertices) // 2
+    front, back = relief.vertices[:half], relief.vertices[half:]
+    bar = front[:, 2] == 60
+    assert bar.any()
+    assert (back[bar, 2] > 50).all()
+    # The plate goes on under all of the bar.
+    hidden = (front[:, 2] < 20) & (np.abs(front[:, 1] - 60) < 9)
+    assert np.ptp(front[hidden, 0]) > 85
+    assert (front[hidden, 2] > 20 - stride).all()
+
+
+@pytest.mark.parametrize("stride", [1, 2, 4])
+def test_nothing_hidden_shows(stride: int) -> None:
+    height, mask = band_over_plate()
+    rows, columns = np.mgrid[0:120, 0:120].astype(np.float32)
+    height += np.where(mask, 12 * np.sin(columns / 19) + 9 * np.cos(rows / 23), 0)
+    relief = build_relief(height, mask, stride=stride)
+    assert check_relief(relief) == []
+    seen = visible_faces(relief.vertices, relief.faces, (120, 120))
+    inside = mask & (seen.face >= 0)
+    corners = relief.vertices[relief.faces[seen.face[inside]], 2]
+    u, v = seen.u[inside], seen.v[inside]
+    level = (1 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]
+    away = np.abs(rows[inside] - 59.5)
+    clear = np.abs(away - 10) > 2 * stride
+    assert np.abs(level - height[inside])[clear].max() < 0.15 * stride

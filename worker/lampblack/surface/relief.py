@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import cells
+from .beneath import Beneath, find_beneath
 from .nodes import Nodes, place_nodes
 
 BACK_DEPTH = 0.5
@@ -44,8 +45,9 @@ def build_relief(
     """Mesh the height map, one vertex for each block of ``stride`` x ``stride`` pixels.
 
     The silhouette is the mask's outline with its pixel corners cut. Where the height changes
-    far more than the slopes on either side imply, the surface is cut. Every front vertex has
-    one behind it and every open edge has a wall, so the mesh is closed.
+    far more than the slopes on either side imply, the surface is cut: the part in front has a
+    back of its own there, and the surface behind goes on beneath it, see ``beneath.py``. Every
+    front vertex has one behind it and every open edge has a wall, so the mesh is closed.
 
     Args:
         height: (H, W) float32, pixels towards the viewer.
@@ -63,15 +65,71 @@ def build_relief(
     if not (np.isfinite(relief_scale) and np.isfinite(height[mask]).all()):
         raise ValueError("the height or its scale is not finite")
     nodes = place_nodes(height, mask, stride)
+    nodes = replace(nodes, points=nodes.points * np.array([1, 1, relief_scale], np.float32))
+    beneath = find_beneath(nodes, stride, BACK_DEPTH, THICKNESS)
+    if beneath is None:
+        return _closed(nodes)
+    seen = _closed(nodes, beneath.back)
+    hidden = _hidden(beneath, mask, stride)
+    return seen if hidden is None else _joined(seen, hidden)
+
+
+def _hidden(beneath: Beneath, mask: NDArray[np.bool_], stride: int) -> Relief | None:
+    """The piece of the surface behind that goes on beneath what is in front."""
+    rows, columns = np.flatnonzero(beneath.inside.any(1)), np.flatnonzero(beneath.inside.any(0))
+    if not len(rows):
+        return None
+    # Blocks have an empty frame around the canvas.
+    top, left = (int(found[0]) - 1 for found in (rows, columns))
+    box = slice(top + 1, int(rows[-1]) + 1), slice(left + 1, int(columns[-1]) + 1)
+    height, inside = (
+        plane[box].repeat(stride, axis=0).repeat(stride, axis=1)
+        for plane in (beneath.height, beneath.inside)
+    )
+    part = mask[stride * top :, stride * left :][: inside.shape[0], : inside.shape[1]]
+    inside = inside[: part.shape[0], : part.shape[1]].astype(bool) & part
+    if not inside.any():
+        return None
+    height = height[: part.shape[0], : part.shape[1]].astype(np.float32)
+    piece = _closed(place_nodes(height, inside, stride))
+    shift = np.array([stride * left, stride * top, 0], np.float32)
+    return replace(piece, vertices=piece.vertices + shift)
+
+
+def _closed(nodes: Nodes, own_back: NDArray[np.float32] | None = None) -> Relief:
+    """The front of ``nodes`` with walls and a back.
+
+    Args:
+        own_back: (R, C) float32, height of the back behind each node; NaN where it mirrors the
+            front.
+    """
     triangles, open_edges = _front(nodes)
-    front = nodes.points * np.array([1, 1, relief_scale], np.float32)
+    front = nodes.points
     back = front.copy()
     back[:, 2] = np.minimum(front[:, 2], -BACK_DEPTH * np.maximum(front[:, 2], 0)) - THICKNESS
+    if own_back is not None:
+        own = np.isfinite(own_back)
+        for number in (nodes.number, *nodes.rim.values()):
+            vertex = number[own & (number >= 0)]
+            level = own_back[own & (number >= 0)]
+            back[vertex, 2] = np.minimum(level, front[vertex, 2] - THICKNESS)
     behind = np.int32(len(front))
     a, b = open_edges[:, 1], open_edges[:, 0]
     walls = np.stack([a, b, b + behind, a, b + behind, a + behind], axis=1).reshape(-1, 3)
     faces = np.concatenate([triangles, triangles[:, ::-1] + behind, walls])
     return Relief(np.concatenate([front, back]), faces.astype(np.int32, copy=False))
+
+
+def _joined(first: Relief, second: Relief) -> Relief:
+    """Both meshes as one; the first half of the vertices is still the front."""
+    halves = [len(each.vertices) // 2 for each in (first, second)]
+    parts = [each.vertices[:half] for each, half in zip((first, second), halves, strict=True)]
+    parts += [each.vertices[half:] for each, half in zip((first, second), halves, strict=True)]
+    faces = [
+        first.faces + np.int32(halves[1]) * (first.faces >= halves[0]),
+        second.faces + np.int32(halves[0]) + np.int32(halves[0]) * (second.faces >= halves[1]),
+    ]
+    return Relief(np.concatenate(parts), np.concatenate(faces).astype(np.int32, copy=False))
 
 
 def check_relief(relief: Relief) -> list[str]:
