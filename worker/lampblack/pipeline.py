@@ -21,14 +21,15 @@ from .choices import DEFAULT_GRIDS, PipelineOptions
 from .composite import composite
 from .drawing import Drawing, DrawingPlanes
 from .normals.predict import NormalPredictor
-from .normals.prediction import Prediction
+from .normals.prediction import Prediction, pack_order, unpack_order
 from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter
 from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from .prepared import PreparedDrawing, block_middles, character_box
 from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
 from .render.light_pass_cache import LightPassCache
 from .scene import Scene
-from .surface import guided_filter, solve
+from .surface import Overlap, dividing_lines, guided_filter, solve, solve_with_overlaps
+from .surface.overlap import pack_overlaps, unpack_overlaps
 
 MAX_SURFACE_PX = 2048
 """Longest side at which a surface is solved; larger pictures are lit at this size."""
@@ -146,21 +147,36 @@ class Pipeline:
     ) -> NDArray[np.float32]:
         """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask. With
         ``neighbours`` it passes the temporal filter."""
-        key = digest_of(
-            "normals", self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
+        return self._predicted(drawing, progress, neighbours).normals
+
+    def _predicted(
+        self,
+        drawing: Drawing,
+        progress: Progress = lambda share: None,
+        neighbours: LazyNeighbours | None = None,
+    ) -> Prediction:
+        """The prediction, its depth and edges at low resolution."""
+        made: list[Prediction] = []
+
+        def predict() -> Prediction:
+            if not made:
+                grids = self.options.grids
+                made.append(
+                    self._predictor.predict(
+                        drawing.lines, drawing.mask, grids=grids, progress=progress
+                    )
+                )
+            return made[0]
+
+        made_from = self._predictor.identity, self.options.grids, drawing.lines, drawing.mask
+        normals = self._cache.get(digest_of("normals", *made_from), lambda: predict().normals)
+        order = self._cache.get(
+            digest_of("order", *made_from), lambda: pack_order(predict(), drawing.mask)
         )
-        predicted = self._cache.get(
-            key,
-            lambda: (
-                self._predictor.predict(
-                    drawing.lines, drawing.mask, grids=self.options.grids, progress=progress
-                ).normals
-            ),
-        )
-        if neighbours is None:
-            return predicted
-        here = self._thumbnail(drawing, predicted)
-        return self._temporal_filter.smooth(predicted, drawing.mask, here, neighbours.load())
+        if neighbours is not None:
+            here = self._thumbnail(drawing, normals)
+            normals = self._temporal_filter.smooth(normals, drawing.mask, here, neighbours.load())
+        return unpack_order(normals, order, drawing.mask)
 
     def thumbnail(self, drawing: Drawing) -> RegistrationThumbnail:
         """The drawing's registration thumbnail, about 4 MB."""
@@ -178,21 +194,49 @@ class Pipeline:
     ) -> NDArray[np.float32]:
         """(h, w) float32 height in canvas pixels, at the drawing's size or less (see
         ``surface_step``)."""
+        return self.surface(drawing, progress, neighbours)[0]
+
+    def surface(
+        self,
+        drawing: Drawing,
+        progress: Progress = lambda share: None,
+        neighbours: LazyNeighbours | None = None,
+    ) -> tuple[NDArray[np.float32], tuple[Overlap, ...]]:
+        """The height, as from ``height``, and the overlaps along which it steps."""
+        made: list[tuple[NDArray[np.float32], list[Overlap]]] = []
+
+        def inflate() -> tuple[NDArray[np.float32], list[Overlap]]:
+            if not made:
+                made.append(self._inflate(drawing, progress, neighbours))
+            return made[0]
+
         made_from = [self._predictor.identity, self.options, drawing.lines, drawing.mask]
+        made_from.append(drawing.ink)
         if neighbours is not None:
             made_from += [drawing.albedo, neighbours.keys]
-        key = digest_of("height", *made_from)
-        return self._cache.get(key, lambda: self._inflate(drawing, progress, neighbours))
+        height = self._cache.get(digest_of("steps", *made_from), lambda: inflate()[0])
+        packed = self._cache.get(
+            digest_of("overlaps", *made_from), lambda: pack_overlaps(inflate()[1])
+        )
+        return height, unpack_overlaps(packed)
 
     def _inflate(
         self, drawing: Drawing, progress: Progress, neighbours: LazyNeighbours | None
-    ) -> NDArray[np.float32]:
-        normals, mask = self.normals(drawing, progress, neighbours), drawing.mask
+    ) -> tuple[NDArray[np.float32], list[Overlap]]:
+        prediction, mask = self._predicted(drawing, progress, neighbours), drawing.mask
+        lines = dividing_lines(drawing.lines, drawing.ink, mask)
         step = surface_step(drawing)
         if step > 1:
-            normals, mask = _shrink_normals(normals, mask, step)
-        height = solve(normals, mask, solver=self.options.solver)
-        return guided_filter(height, mask) * np.float32(step)
+            prediction, mask, lines = _shrink(prediction, mask, lines, step)
+        if self.options.solver == "direct":
+            height, overlaps = solve_with_overlaps(prediction, mask, lines)
+        else:
+            height, overlaps = solve(prediction.normals, mask, solver=self.options.solver), []
+        height = guided_filter(height, mask) * np.float32(step)
+        return height, [
+            replace(overlap, points=overlap.points * step, amount=overlap.amount * step)
+            for overlap in overlaps
+        ]
 
     def prepare(
         self,
@@ -211,7 +255,7 @@ class Pipeline:
             progress: called with the share done, 0 to 1, of predicting normals.
             with_normals: keep them in the result.
         """
-        height = self.height(drawing, progress, neighbours)
+        height, overlaps = self.surface(drawing, progress, neighbours)
         normals = self.normals(drawing, progress, neighbours) if with_normals else None
         step = surface_step(drawing)
         return PreparedDrawing(
@@ -225,6 +269,7 @@ class Pipeline:
             mask=block_middles(drawing.mask, step)[: height.shape[0], : height.shape[1]],
             normals=normals,
             box=character_box(drawing.mask, 1),
+            overlaps=overlaps,
         )
 
     def prepare_quick(self, planes: DrawingPlanes, digest: str = "") -> PreparedDrawing:
@@ -281,16 +326,26 @@ def surface_step(drawing: Drawing) -> int:
     return -(-max(drawing.size) // MAX_SURFACE_PX)
 
 
-def _shrink_normals(
-    normals: NDArray[np.float32], mask: NDArray[np.bool_], step: int
-) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Average blocks of ``step`` x ``step`` pixels. A block is inside if its middle pixel is."""
+def _shrink(
+    prediction: Prediction, mask: NDArray[np.bool_], lines: NDArray[np.float32], step: int
+) -> tuple[Prediction, NDArray[np.bool_], NDArray[np.float32]]:
+    """Blocks of ``step`` x ``step`` pixels as one: normals are averaged, and a line remains if any
+    of its pixels is there. A block is inside if its middle pixel is."""
     rows, columns = mask.shape[0] // step, mask.shape[1] // step
-    planes = torch.from_numpy(normals[: rows * step, : columns * step]).permute(2, 0, 1)
-    pooled = torch.nn.functional.avg_pool2d(planes, step).permute(1, 2, 0).numpy()
+    whole = np.s_[: rows * step, : columns * step]
+    pool = torch.nn.functional
+    planes = torch.from_numpy(prediction.normals[whole]).permute(2, 0, 1)
+    pooled = pool.avg_pool2d(planes, step).permute(1, 2, 0).numpy()
+    darkest = pool.max_pool2d(torch.from_numpy(lines[whole])[None], step)[0].numpy()
     middle = block_middles(mask, step)[:rows, :columns]
     length = np.maximum(np.linalg.norm(pooled, axis=2, keepdims=True), 1e-6)
-    return (pooled / length * middle[..., None]).astype(np.float32), middle
+    normals = (pooled / length * middle[..., None]).astype(np.float32)
+    depth, edge = (
+        None if plane is None else block_middles(plane, step)[:rows, :columns]
+        for plane in (prediction.depth, prediction.edge)
+    )
+    depth = None if depth is None else depth / np.float32(step)
+    return Prediction(normals, depth, edge), middle, darkest
 
 
 def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:

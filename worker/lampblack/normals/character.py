@@ -42,6 +42,12 @@ class Canvas:
         return slice(rows, rows + self.size[0]), slice(columns, columns + self.size[1])
 
 
+def bounding_box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """The rows and columns of the box around a mask that is not empty."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
 def canvases(side: int) -> list[tuple[int, int]]:
     """Shapes of about ``side`` squared pixels: square, 3:2 and 9:4, portrait and landscape."""
     shapes = []

@@ -14,7 +14,7 @@ from .. import __version__
 from ..cache import digest
 from ..choices import DEFAULT_GRIDS
 from .card import NetworkCard, load_network, shipped_weights
-from .character import extend_outside, resize
+from .character import bounding_box, extend_outside, resize
 from .networks import CharacterNet
 from .predict_character import mean_planes
 from .predict_tiles import MAX_GRIDS, tile_vectors
@@ -82,7 +82,7 @@ class NormalPredictor:
             return Prediction(normals, depth, edge)
         # Everything is relative to the character's box, so that a character that moves across
         # the canvas keeps its normals to the last bit.
-        box = _bounding_box(mask)
+        box = bounding_box(mask)
         character_lines, character_mask, inner = _past_the_canvas(
             lines[box], mask[box], box, mask.shape
         )
@@ -125,11 +125,6 @@ def _correct_slopes(vectors: NDArray[np.float32], roundness: float) -> NDArray[n
     rounded = steeper / np.linalg.norm(steeper, axis=2, keepdims=True)
     result: NDArray[np.float32] = rounded.astype(np.float32)
     return result
-
-
-def _bounding_box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
 def _past_the_canvas(

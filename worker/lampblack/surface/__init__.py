@@ -3,19 +3,24 @@
 from .depth_picture import depth_picture, full_size
 from .export import save_mesh
 from .guided import guided_filter
+from .inflate_overlaps import dividing_lines, solve_with_overlaps
+from .overlap import Overlap
 from .relief import Relief, build_relief, check_relief
 from .solver import Solver, solve
 from .visible import visible_faces
 
 __all__ = [
+    "Overlap",
     "Relief",
     "Solver",
     "build_relief",
     "check_relief",
     "depth_picture",
+    "dividing_lines",
     "full_size",
     "guided_filter",
     "save_mesh",
     "solve",
+    "solve_with_overlaps",
     "visible_faces",
 ]

@@ -1,0 +1,176 @@
+"""Inflation of a character whose parts overlap: a surface with steps.
+
+In two solves. A small surface, cut at the occlusions and held by the predicted depth alone, tells
+how far the parts lie apart; of it only these steps are kept. Then the whole surface is inflated
+from its normals with the steps, so that all its slopes stay those of the normals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..normals.prediction import Prediction
+from .cuts import Cuts, Floats, across, jumps_across
+from .direct import Prior, inflate_direct
+from .occlusions import Occlusion, find_occlusions
+from .overlap import Overlap
+from .solver import rest_on_border, solve, usable_normals
+from .strokes import find_strokes, mean_along
+
+SMALL_PX = 500
+"""Longest side, about, of a character where only steps are wanted."""
+INK = 0.3
+"""Least darkness of a line that separates parts."""
+PRIOR = 10.0
+"""The weight of the predicted depth is the square of this over the character's length: shapes
+smaller than a tenth of the character follow the normals. At 5, steps are lost; at 20, the surface
+bends."""
+GAIN = 1.5
+"""Steps held by the predicted depth are too small by about this factor; at 2, more of them are
+too large."""
+LEAST, LARGEST = 0.02, 0.3
+"""Limits of a step; shares of the length."""
+TAPER = 0.05
+"""A step falls to 0 over this distance from an end where its sides join; share of the length."""
+POOL = 0.01
+"""Steps are averaged over this share of the length, either way along an occlusion."""
+ROUGH = 1e-2
+"""Tolerance of the solver where only steps are wanted."""
+
+
+def dividing_lines(
+    lines: NDArray[np.float32], ink: NDArray[np.float32], mask: NDArray[np.bool_]
+) -> NDArray[np.float32]:
+    """(H, W) float32, 0 to 1: the lines at which a part may end. In an inked drawing they are ink;
+    in one without, the borders of its colours.
+
+    Args:
+        lines, ink: (H, W) float32 in 0..1. mask: (H, W) bool.
+    """
+    outline = mask & ~ndimage.binary_erosion(mask)
+    inked = bool((ink[outline] > INK).sum() * 2 > np.count_nonzero(outline))
+    chosen: NDArray[np.float32] = np.where(mask, ink if inked else lines, np.float32(0))
+    return chosen
+
+
+def solve_with_overlaps(
+    prediction: Prediction, mask: NDArray[np.bool_], lines: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], list[Overlap]]:
+    """Inflate a prediction, with steps where parts overlap.
+
+    Args:
+        prediction: of (H, W). Without depth, the surface has no steps.
+        mask: (H, W) bool, True inside the character.
+        lines: (H, W) float32 in 0..1, the lines at which a part may end.
+
+    Returns:
+        (H, W) float32 height as from ``solve``, and the overlaps along which it steps, the longest
+        first.
+
+    Raises:
+        ValueError: the shapes do not fit.
+    """
+    if prediction.depth is None or prediction.edge is None or not mask.any():
+        return solve(prediction.normals, mask), []
+    normals = usable_normals(prediction.normals, mask)
+    small = _small(normals, prediction.depth, prediction.edge, mask, lines)
+    cuts, overlaps = Cuts.none(mask.shape), []
+    for occlusion, small_steps in _steps(small):
+        points, steps = small.on_canvas(occlusion.points), small_steps * small.by
+        cuts.add(points, across(points, occlusion.front), steps, mask)
+        overlaps.append(Overlap(points, occlusion.front, float(steps.mean())))
+    overlaps.sort(key=lambda overlap: len(overlap.points), reverse=True)
+    height = inflate_direct(normals, mask, cuts if overlaps else None)
+    return rest_on_border(height, mask), overlaps
+
+
+@dataclass(frozen=True, eq=False)
+class _Small:
+    """A character at reduced size: its pixels are blocks of ``by`` x ``by`` from ``corner`` (row,
+    column) on. Heights are in its own pixels. ``length`` is the longer side of its box."""
+
+    corner: tuple[int, int]
+    by: int
+    length: float
+    normals: Floats
+    mask: NDArray[np.bool_]
+    depth: Floats
+    edge: Floats
+    ink: NDArray[np.bool_]
+
+    def on_canvas(self, points: Floats) -> Floats:
+        """Points x, y of this, on the canvas."""
+        found: Floats = points * np.float32(self.by) + np.array(self.corner[::-1], np.float32)
+        return found
+
+
+def _small(
+    normals: Floats, depth: Floats, edge: Floats, mask: NDArray[np.bool_], lines: Floats
+) -> _Small:
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    top, left = int(rows[0]), int(columns[0])
+    sides = int(rows[-1]) + 1 - top, int(columns[-1]) + 1 - left
+    by = max(1, round(max(sides) / SMALL_PX))
+    counts = -(-sides[0] // by), -(-sides[1] // by)
+
+    def blocks(plane: NDArray[Any]) -> NDArray[Any]:
+        cut = plane[top : top + counts[0] * by, left : left + counts[1] * by]
+        more = [(0, counts[axis] * by - cut.shape[axis]) for axis in (0, 1)]
+        whole = np.pad(cut, more + [(0, 0)] * (cut.ndim - 2))
+        return whole.reshape(counts[0], by, counts[1], by, *cut.shape[2:])
+
+    share = blocks(mask).mean(axis=(1, 3), dtype=np.float32)
+    inside = share >= min(0.5, float(share.max()))
+    covered = np.maximum(share, 1e-6)
+    return _Small(
+        corner=(top, left),
+        by=by,
+        length=max(sides) / by,
+        normals=usable_normals(blocks(normals).mean(axis=(1, 3)), inside),
+        mask=inside,
+        depth=blocks(depth).mean(axis=(1, 3)) / covered / np.float32(by),
+        edge=blocks(edge).mean(axis=(1, 3)) / covered,
+        ink=(blocks(lines).max(axis=(1, 3)) > INK) & inside,
+    )
+
+
+def _steps(small: _Small) -> list[tuple[Occlusion, Floats]]:
+    """The occlusions and the steps along them, in pixels of ``small``."""
+    strokes = find_strokes(small.ink, small.length)
+    if not strokes:
+        return []
+    order = small.depth + inflate_direct(small.normals, small.mask, tolerance=ROUGH)
+    found = find_occlusions(strokes, small.ink, order, small.edge, small.mask, small.length)
+    if not found:
+        return []
+    cuts = Cuts.none(small.mask.shape)
+    for occlusion in found:
+        ones = np.ones(len(occlusion.points), np.float32)
+        cuts.add(occlusion.points, occlusion.towards, ones, small.mask)
+    prior = Prior(small.depth, (PRIOR / small.length) ** 2)
+    held = inflate_direct(small.normals, small.mask, cuts, hold=0, prior=prior, tolerance=ROUGH)
+    reach = max(1, round(POOL * small.length))
+    measured = []
+    for occlusion in found:
+        jumps = jumps_across(occlusion.points, occlusion.towards, held, small.mask, cuts)
+        steps = GAIN * mean_along(jumps, np.isfinite(jumps), reach)
+        steps = np.clip(steps, LEAST * small.length, LARGEST * small.length)
+        measured.append((occlusion, steps * _taper(occlusion, TAPER * small.length)))
+    return measured
+
+
+def _taper(occlusion: Occlusion, far: float) -> Floats:
+    """(N,) 0 to 1: how much of the step there is, from an open end on."""
+    count = len(occlusion.points)
+    ramp = np.minimum(np.arange(count) / max(1.0, min(far, count / 2)), 1)
+    ramp = ramp * ramp * (3 - 2 * ramp)
+    share = np.ones(count)
+    for end, ramped in zip(occlusion.open_ends, (ramp, ramp[::-1]), strict=True):
+        if end:
+            share = share * ramped
+    return share.astype(np.float32)
