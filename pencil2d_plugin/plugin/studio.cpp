@@ -13,6 +13,7 @@ Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
       mUnlit(std::make_unique<UnlitLayers>(host, *mFeed, mDocument)),
       mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mUnlit, *mTool)),
+      mCuts(std::make_unique<CutFeed>(host, *mWorker, *mFeed, mDocument, *mTool)),
       mLayer(std::make_unique<LitLayer>(host, mDocument)),
       mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, *mLayer, mDocument)),
       mProject(std::make_unique<ProjectScene>(host, mDocument, *mLayer)), mMaterialsRoom(host)
@@ -49,8 +50,10 @@ Studio::~Studio()
 
 bool Studio::isSettled() const
 {
-    return mShownImage.converged && mShownImage.frame == mHost.currentFrame() && mFeed &&
-           mFeed->isUpToDate(mShownImage.frame) && mWorker->isCurrent(mShownImage);
+    const std::optional<Show> mode = mTool ? mTool->viewMode() : std::nullopt;
+    return mShownImage.converged && (!mode || mShownImage.show == *mode) &&
+           mShownImage.frame == mHost.currentFrame() && mFeed && mFeed->isUpToDate(mShownImage.frame) &&
+           mWorker->isCurrent(mShownImage);
 }
 
 QVariantList Studio::lightPlaces() const
@@ -61,9 +64,24 @@ QVariantList Studio::lightPlaces() const
     return places;
 }
 
+QVariantList Studio::cutPlaces() const
+{
+    QVariantList places;
+    const QVector<Cut> cuts = mTool ? mTool->cuts() : QVector<Cut>();
+    for (const Cut& cut : cuts)
+    {
+        QVariantList points;
+        for (const QPointF& point : cut.line)
+            points.append(QVariant(QVariantList{point.x(), point.y()}));
+        places.append(QVariant(points));
+    }
+    return places;
+}
+
 void Studio::close()
 {
     mJob.reset();
+    mCuts.reset();
     mView.reset();
     mUnlit.reset();
     mFeed.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/host.h"
+#include "plugin/cut_feed.h"
 #include "plugin/dock_room.h"
 #include "plugin/frame_feed.h"
 #include "plugin/lit_layer.h"
@@ -32,6 +33,7 @@ class Studio : public QObject
     Q_PROPERTY(QString project READ project)                ///< path of the project last opened
     Q_PROPERTY(QVariantList lightPlaces READ
                    lightPlaces) ///< [x, y] of each light at the current frame, canvas pixels
+    Q_PROPERTY(QVariantList cutPlaces READ cutPlaces) ///< points of each cut that is shown, canvas pixels
 
 public:
     Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent = nullptr);
@@ -42,6 +44,7 @@ public:
     bool isSettled() const;
     QString project() const { return mProjectPath; }
     QVariantList lightPlaces() const;
+    QVariantList cutPlaces() const;
 
     /// Remove everything from the window and end the worker.
     void close();
@@ -60,6 +63,7 @@ private:
     std::unique_ptr<FrameFeed> mFeed;
     std::unique_ptr<UnlitLayers> mUnlit;
     std::unique_ptr<LitView> mView;
+    std::unique_ptr<CutFeed> mCuts;
     std::unique_ptr<LitLayer> mLayer;
     std::unique_ptr<ShotJob> mJob;
     std::unique_ptr<ProjectScene> mProject;

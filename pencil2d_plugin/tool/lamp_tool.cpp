@@ -4,6 +4,8 @@
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/key_input.h"
 #include "tool/canvas/lamp_menu.h"
+#include "tool/depth/cut_editor.h"
+#include "tool/depth/cut_menu.h"
 #include "tool/materials/materials_dock.h"
 #include "tool/panel/lamp_panel.h"
 
@@ -34,6 +36,7 @@ LampTool::~LampTool()
 {
     delete mOverlay; // deletes the event filters of the canvas too
     delete mMenu;
+    delete mCutMenu;
     delete mMaterials;
     delete mPanel;
 }
@@ -91,6 +94,8 @@ void LampTool::addDock()
             {
                 if (picking && !mActive)
                     mTool->trigger();
+                if (picking && showsDepth())
+                    setViewMode(Show::Lit);
                 if (mInput)
                     mInput->setPicking(picking && mActive);
                 if (picking && mMaterials)
@@ -105,7 +110,8 @@ void LampTool::setUpCanvas()
         return;
     mOverlay = new CanvasOverlay(mHost, mDocument);
     mInput = new CanvasInput(mHost, mDocument, *mOverlay);
-    mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput);
+    mCuts = new CutEditor(mHost, mDocument, *mOverlay);
+    mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput, mCuts);
     mMenu = new LampMenu(mHost, mDocument, mHost.canvas());
     connect(&mHost, &Host::playingChanged, mOverlay.data(),
             [this](bool playing) { mOverlay->setHandlesShown(!playing); });
@@ -137,6 +143,28 @@ void LampTool::setUpCanvas()
                 if (mMaterials)
                     mMaterials->revealColour(colour);
             });
+    setUpCuts();
+}
+
+void LampTool::setUpCuts()
+{
+    mCutMenu = new CutMenu(mHost, mDocument, *mCuts, mHost.canvas());
+    connect(mCuts, &CutEditor::menuRequested, mCutMenu.data(), &CutMenu::openAt);
+    connect(mCutMenu, &CutMenu::lightRequested, this, [this] { setViewMode(Show::Lit); });
+    connect(mMenu, &LampMenu::depthRequested, this, [this] { setViewMode(Show::Relief); });
+}
+
+void LampTool::updateInput()
+{
+    mHost.showStatus(mActive ? mTool->statusTip() : QString());
+    if (!mOverlay)
+        return;
+    const bool depth = mActive && showsDepth();
+    // Who had the cursor gives it back first.
+    if (depth)
+        mInput->setListening(false);
+    mCuts->setListening(depth);
+    mInput->setListening(mActive && !depth);
 }
 
 void LampTool::setActive(bool active)
@@ -149,10 +177,9 @@ void LampTool::setActive(bool active)
         mOverlay->setVisible(active);
         mOverlay->raise();
         mOverlay->updateHandles();
-        mInput->setListening(active);
         mKeys->setListening(active);
     }
-    mHost.showStatus(active ? mTool->statusTip() : QString());
+    updateInput();
     Q_EMIT activeChanged(active);
 }
 
@@ -167,6 +194,7 @@ void LampTool::setViewMode(std::optional<Show> mode)
         mPanel->setViewMode(mode);
     if (mOverlay)
         mOverlay->clearPicture();
+    updateInput();
     Q_EMIT viewModeChanged();
 }
 
@@ -183,6 +211,8 @@ bool LampTool::hidesSources() const
 void LampTool::setFrame(const FrameExport& frame)
 {
     mColours.setFrame(frame);
+    if (mCuts)
+        mCuts->setFrame(frame);
     if (frame.canvasToImage.isIdentity())
         mCameras.remove(frame.frame);
     else
@@ -206,6 +236,17 @@ void LampTool::setUnlitLayers(const FrameExport& below, const FrameExport& above
 {
     if (mOverlay)
         mOverlay->setUnlitLayers(below, above);
+}
+
+void LampTool::setOverlaps(int frame, const QVector<Overlap>& overlaps)
+{
+    if (mCuts)
+        mCuts->setOverlaps(frame, overlaps);
+}
+
+QVector<Cut> LampTool::cuts() const
+{
+    return mCuts && mCuts->isListening() ? mCuts->cuts() : QVector<Cut>();
 }
 
 void LampTool::setPalette(const QVector<Swatch>& swatches)

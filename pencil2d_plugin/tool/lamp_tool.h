@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/canvas/frame_colours.h"
+#include "tool/depth/cuts.h"
 #include "tool/shot_range.h"
 #include "worker/worker.h"
 
@@ -15,6 +16,8 @@ namespace lampblack
 
 class CanvasInput;
 class CanvasOverlay;
+class CutEditor;
+class CutMenu;
 class KeyInput;
 class LampMenu;
 class LampPanel;
@@ -35,6 +38,9 @@ public:
     /// What the canvas shows while the lamp is in use. No value: the drawing as drawn.
     std::optional<Show> viewMode() const;
     void setViewMode(std::optional<Show> mode);
+    /// The Depth view: the canvas shows how near the surface is, and its cuts, which can be corrected.
+    bool showsDepth() const { return viewMode() == Show::Relief; }
+    QVector<Cut> cuts() const; ///< those that are shown
 
     QAction* toolAction() { return mTool; }
     QAction* renderAction() { return mRender; } ///< "Render All Frames"
@@ -52,6 +58,9 @@ public Q_SLOTS:
 
     /// The unlit layers under and over the lit ones; null images for none.
     void setUnlitLayers(const lampblack::FrameExport& below, const lampblack::FrameExport& above);
+
+    /// Where the drawing of a frame overlaps itself.
+    void setOverlaps(int frame, const QVector<lampblack::Overlap>& overlaps);
 
     /// The flat colours of the current drawing, most used first.
     void setPalette(const QVector<lampblack::Swatch>& swatches);
@@ -75,6 +84,8 @@ private:
     void addPanel();
     void addDock();
     void setUpCanvas();
+    void setUpCuts();
+    void updateInput();
     void highlightColourAt(const QPointF& canvas);
 
     Host& mHost;
@@ -92,6 +103,8 @@ private:
     QPointer<CanvasInput> mInput;
     QPointer<KeyInput> mKeys;
     QPointer<LampMenu> mMenu;
+    QPointer<CutEditor> mCuts;
+    QPointer<CutMenu> mCutMenu;
 };
 
 } // namespace lampblack

@@ -171,6 +171,10 @@ void WorkerSession::setScene(const Scene& scene)
         return;
     }
     const bool first = !mScene;
+    if (first || !(mScene->depth == scene.depth))
+    {
+        mDepthRevision = mRevision + 1;
+    }
     mScene = scene;
     mSceneRevisions.clear();
     sendScene();
@@ -184,7 +188,8 @@ bool WorkerSession::isCurrent(const PreviewImage& image) const
 {
     const auto shown = mFrameStore.frames().constFind(image.frame);
     return shown != mFrameStore.frames().constEnd() && shown->digest == image.digest &&
-           (image.show != Show::Lit || mSceneRevisions.contains(image.revision));
+           (image.show == Show::Lit ? mSceneRevisions.contains(image.revision)
+                                    : image.revision >= mDepthRevision);
 }
 
 void WorkerSession::requestPreview(int frame, Show show, const QRectF& crop, const QSize& size)

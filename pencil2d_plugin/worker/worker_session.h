@@ -101,6 +101,7 @@ private:
     QSet<QByteArray> mNeeded; ///< digests whose pixels the worker waits for
     std::optional<Scene> mScene;
     QSet<quint64> mSceneRevisions; ///< revisions under which mScene was sent
+    quint64 mDepthRevision = 0;    ///< the first revision with the depth of mScene
     QSet<quint64> mJobRevisions;   ///< revisions of the scenes of jobs that differ from mScene
     std::optional<PreviewRequest> mPreview;
     ImageRank mShownRank;                ///< rank of the last image that was emitted

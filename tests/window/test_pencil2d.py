@@ -32,8 +32,8 @@ from support.registration import luminance, offset
 from support.window import Display, Pencil2D, SharedPencil2D, pencil2d, wait_until
 
 TOOL = "lampblack.tool"
-LIT, NORMALS, RELIEF, FLAT = (
-    f"lampblack.panel.view.{n}" for n in ("lit", "normals", "relief", "flat")
+LIT, NORMALS, DEPTH, FLAT = (
+    f"lampblack.panel.view.{n}" for n in ("lit", "normals", "depth", "flat")
 )
 
 

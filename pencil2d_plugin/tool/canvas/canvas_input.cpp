@@ -2,11 +2,7 @@
 
 #include "scene/timeline.h"
 
-#include <QHoverEvent>
 #include <QIcon>
-#include <QMouseEvent>
-#include <QTabletEvent>
-#include <QWheelEvent>
 
 namespace lampblack
 {
@@ -28,36 +24,25 @@ QCursor lampCursor()
 } // namespace
 
 CanvasInput::CanvasInput(Host& host, SceneDocument& document, CanvasOverlay& overlay)
-    : QObject(&overlay), mHost(host), mDocument(document), mOverlay(overlay), mLampCursor(lampCursor())
+    : PointerFilter(host, &overlay), mDocument(document), mOverlay(overlay), mLampCursor(lampCursor())
 {
     mTagTimer.setSingleShot(true);
     mTagTimer.setInterval(TagMs);
     connect(&mTagTimer, &QTimer::timeout, &overlay, [&overlay] { overlay.setTag(QString(), QPointF()); });
-    host.canvas()->installEventFilter(this);
 }
 
-CanvasInput::~CanvasInput()
+void CanvasInput::handleListening()
 {
-    restoreCursor();
-}
-
-void CanvasInput::setListening(bool listening)
-{
-    if (listening == mListening)
-        return;
-    mListening = listening;
-    if (listening)
+    if (isListening())
     {
         updateCursor();
         return;
     }
     mDrag.reset();
     mSwallowRelease = false;
-    mPenDown = false;
     setPicking(false);
     mOverlay.setHovered({});
     mOverlay.setTag(QString(), QPointF());
-    restoreCursor();
     Q_EMIT pointerLeft();
 }
 
@@ -66,7 +51,7 @@ void CanvasInput::setPicking(bool picking)
     if (picking == mPicking)
         return;
     mPicking = picking;
-    if (mListening)
+    if (isListening())
         updateCursor();
     Q_EMIT pickingChanged(picking);
 }
@@ -83,77 +68,11 @@ void CanvasInput::cancelDrag()
     updateCursor();
 }
 
-bool CanvasInput::eventFilter(QObject* watched, QEvent* event)
+void CanvasInput::handleLeave()
 {
-    if (!mListening || watched != mHost.canvas())
-        return QObject::eventFilter(watched, event);
-    switch (event->type())
-    {
-    case QEvent::MouseButtonPress:
-    case QEvent::MouseButtonDblClick:
-    case QEvent::MouseMove:
-    case QEvent::MouseButtonRelease:
-        return handleMouse(event);
-    case QEvent::TabletPress:
-    case QEvent::TabletMove:
-    case QEvent::TabletRelease:
-        return handleTablet(event);
-    case QEvent::Wheel:
-        return handleWheel(event);
-    case QEvent::Leave:
-        if (!mDrag)
-            mOverlay.setHovered({});
-        Q_EMIT pointerLeft();
-        return false;
-    case QEvent::ContextMenu:
-        event->accept();
-        return true; // our menu was opened when the right button was pressed
-    default:
-        return false;
-    }
-}
-
-bool CanvasInput::handleMouse(QEvent* event)
-{
-    if (mPenDown) // the window system may send mouse events for the pen too
-        return true;
-    const auto& mouse = static_cast<QMouseEvent&>(*event);
-    const Pointer pointer{mouse.localPos(), mouse.globalPos(), mouse.button(), mouse.buttons(),
-                          mouse.modifiers()};
-    bool isOurs = false;
-    if (event->type() == QEvent::MouseMove)
-        isOurs = handleMove(pointer);
-    else if (event->type() == QEvent::MouseButtonRelease)
-        isOurs = handleRelease(pointer);
-    else
-        isOurs = handlePress(pointer);
-    if (isOurs)
-        event->accept();
-    return isOurs;
-}
-
-bool CanvasInput::handleTablet(QEvent* event)
-{
-    const auto& pen = static_cast<QTabletEvent&>(*event);
-    const Pointer pointer{pen.posF(), pen.globalPos(), pen.button(), pen.buttons(), pen.modifiers()};
-    bool isOurs = false;
-    if (event->type() == QEvent::TabletMove)
-    {
-        isOurs = handleMove(pointer);
-    }
-    else if (event->type() == QEvent::TabletRelease)
-    {
-        isOurs = handleRelease(pointer);
-        mPenDown = false;
-    }
-    else
-    {
-        isOurs = handlePress(pointer);
-        mPenDown = isOurs;
-    }
-    if (isOurs)
-        event->accept();
-    return isOurs;
+    if (!mDrag)
+        mOverlay.setHovered({});
+    Q_EMIT pointerLeft();
 }
 
 bool CanvasInput::handlePress(const Pointer& pointer)
@@ -172,7 +91,7 @@ bool CanvasInput::handlePress(const Pointer& pointer)
     }
     if (pointer.button != Qt::LeftButton)
         return false;
-    mHost.canvas()->setFocus(Qt::MouseFocusReason);
+    host().canvas()->setFocus(Qt::MouseFocusReason);
     if (mPicking)
     {
         mSwallowRelease = true;
@@ -189,7 +108,7 @@ bool CanvasInput::handlePress(const Pointer& pointer)
     if (handle.light >= 0)
         mDocument.selectLight(handle.light);
     mDrag.emplace(handle, pointer.modifiers.testFlag(Qt::AltModifier), pointer.position, mDocument.scene(),
-                  mHost.currentFrame(), mOverlay.handles(), *mOverlay.canvasToWidget());
+                  host().currentFrame(), mOverlay.handles(), *mOverlay.canvasToWidget());
     mPressPosition = pointer.position;
     mHasMoved = false;
     updateCursor();
@@ -203,7 +122,7 @@ bool CanvasInput::handleMove(const Pointer& pointer)
         if (pointer.buttons.testFlag(Qt::LeftButton))
             continueDrag(pointer);
         else
-            handleRelease({pointer.position, pointer.global, Qt::LeftButton, {}, pointer.modifiers});
+            handleRelease({pointer.position, pointer.global, Qt::LeftButton, {}, pointer.modifiers, false});
         return true;
     }
     if (pointer.buttons != Qt::NoButton)
@@ -243,9 +162,8 @@ void CanvasInput::continueDrag(const Pointer& pointer)
     showValueTag(mDrag->handle(), pointer.position, mDrag->kind());
 }
 
-bool CanvasInput::handleWheel(QEvent* event)
+bool CanvasInput::handleWheel(QWheelEvent& wheel)
 {
-    auto& wheel = static_cast<QWheelEvent&>(*event);
     const Handle handle = mOverlay.handles().at(wheel.position());
     const double notches = wheel.angleDelta().y() / NotchUnits;
     if (mDrag)
@@ -257,12 +175,11 @@ bool CanvasInput::handleWheel(QEvent* event)
         mSinceZoom.start();
         return false;
     }
-    wheel.accept();
     const bool isFloor = handle.part == HandlePart::Floor;
     if (!isFloor)
         mDocument.selectLight(handle.light);
     const QString text = isFloor ? tr("Pitch Floor") : tr("Change Light Height");
-    const int frame = mHost.currentFrame();
+    const int frame = host().currentFrame();
     const bool fine = wheel.modifiers().testFlag(Qt::ShiftModifier);
     mDocument.edit(text, turnedByWheel(mDocument.scene(), frame, handle, notches, fine),
                    mWheelGestures.gestureFor(
@@ -274,7 +191,7 @@ bool CanvasInput::handleWheel(QEvent* event)
 
 void CanvasInput::showValueTag(const Handle& handle, const QPointF& position, Drag::Kind kind)
 {
-    const Scene scene = sceneAt(mDocument.scene(), mHost.currentFrame());
+    const Scene scene = sceneAt(mDocument.scene(), host().currentFrame());
     const AreaLight light = scene.lights.value(handle.light);
     const Floor floor = scene.floor.value_or(Floor());
     QString text;
@@ -310,20 +227,7 @@ void CanvasInput::updateCursor()
         cursor = Qt::ArrowCursor; // the lamp cursor would hide the light
     else if (part == HandlePart::Height || part == HandlePart::Floor)
         cursor = Qt::SizeVerCursor;
-    QWidget& canvas = *mHost.canvas();
-    if (!mCursorBefore)
-        mCursorBefore = canvas.cursor();
-    if (canvas.cursor() != cursor)
-        canvas.setCursor(cursor);
-    mCursorShown = cursor;
-}
-
-void CanvasInput::restoreCursor()
-{
-    // The next tool may have set its cursor already.
-    if (mCursorBefore && mHost.canvas() && mHost.canvas()->cursor() == mCursorShown)
-        mHost.canvas()->setCursor(*mCursorBefore);
-    mCursorBefore.reset();
+    showCursor(cursor);
 }
 
 QPointF CanvasInput::toCanvas(const QPointF& position) const

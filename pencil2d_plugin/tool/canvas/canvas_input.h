@@ -5,11 +5,10 @@
 #include "scene/scene_document.h"
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/drag.h"
+#include "tool/canvas/pointer_filter.h"
 #include "tool/gesture.h"
 
-#include <QCursor>
 #include <QElapsedTimer>
-#include <QObject>
 #include <QTimer>
 
 #include <optional>
@@ -17,18 +16,14 @@
 namespace lampblack
 {
 
-/// An event filter of the canvas. While it listens it takes the left button, the right button and the wheel
-/// over a handle. Everything else (panning, zooming) goes to the drawing program.
-class CanvasInput : public QObject
+/// While it listens it takes the left button, the right button and the wheel over a handle. Everything else
+/// (panning, zooming) goes to the drawing program.
+class CanvasInput : public PointerFilter
 {
     Q_OBJECT
 
 public:
     CanvasInput(Host& host, SceneDocument& document, CanvasOverlay& overlay);
-    ~CanvasInput() override;
-
-    bool isListening() const { return mListening; }
-    void setListening(bool listening);
 
     /// While picking, the next click on the canvas picks a colour.
     void setPicking(bool picking);
@@ -47,45 +42,30 @@ Q_SIGNALS:
     void pickingChanged(bool picking);
 
 protected:
-    bool eventFilter(QObject* watched, QEvent* event) override;
+    bool handlePress(const Pointer& pointer) override;
+    bool handleMove(const Pointer& pointer) override;
+    bool handleRelease(const Pointer& pointer) override;
+    bool handleWheel(QWheelEvent& wheel) override;
+    void handleLeave() override;
+    void handleListening() override;
 
 private:
-    struct Pointer
-    {
-        QPointF position; ///< widget coordinates
-        QPoint global;
-        Qt::MouseButton button = Qt::NoButton;
-        Qt::MouseButtons buttons;
-        Qt::KeyboardModifiers modifiers;
-    };
-    bool handleMouse(QEvent* event);
-    bool handleTablet(QEvent* event);
-    bool handlePress(const Pointer& pointer);
-    bool handleMove(const Pointer& pointer);
-    bool handleRelease(const Pointer& pointer);
-    bool handleWheel(QEvent* event);
     void continueDrag(const Pointer& pointer);
     void showValueTag(const Handle& handle, const QPointF& position, Drag::Kind kind);
     void updateCursor();
-    void restoreCursor();
     QPointF toCanvas(const QPointF& position) const;
 
-    Host& mHost;
     SceneDocument& mDocument;
     CanvasOverlay& mOverlay;
     std::optional<Drag> mDrag;
     QPointF mPressPosition;
     bool mHasMoved = false;
     bool mSwallowRelease = false;
-    bool mListening = false;
     bool mPicking = false;
-    bool mPenDown = false;
     GestureSequence mWheelGestures;
     QElapsedTimer mSinceZoom; ///< since the drawing program last got a wheel event
     QTimer mTagTimer;
     QCursor mLampCursor;
-    std::optional<QCursor> mCursorBefore;
-    QCursor mCursorShown;
 };
 
 } // namespace lampblack

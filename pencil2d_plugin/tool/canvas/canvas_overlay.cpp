@@ -2,6 +2,7 @@
 
 #include "scene/timeline.h"
 #include "tool/canvas/handle_painter.h"
+#include "tool/depth/cut_painter.h"
 
 #include <QEvent>
 #include <QPaintEvent>
@@ -72,7 +73,35 @@ void CanvasOverlay::setHandlesShown(bool shown)
     if (shown == mHandlesShown)
         return;
     mHandlesShown = shown;
-    update(handlesRegion());
+    update(mCutsShown ? QRegion(rect()) : handlesRegion());
+}
+
+void CanvasOverlay::setCutsShown(bool shown)
+{
+    mCutsShown = shown;
+    update();
+}
+
+void CanvasOverlay::setCuts(const QVector<Cut>& cuts)
+{
+    mCuts = cuts;
+    update();
+}
+
+void CanvasOverlay::setHoveredCut(int cut)
+{
+    if (cut == mHoveredCut)
+        return;
+    mHoveredCut = cut;
+    update();
+}
+
+void CanvasOverlay::setCutStroke(const QPolygonF& line)
+{
+    if (line == mCutStroke)
+        return;
+    mCutStroke = line;
+    update();
 }
 
 void CanvasOverlay::setHovered(const Handle& handle)
@@ -124,7 +153,15 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
         mPicture.paint(painter, *mCanvasToWidget, size(), devicePixelRatioF(), mHost.paper());
     if (!mHandlesShown)
         return;
-    paintHandles(painter, mHandles, mHovered);
+    if (mCutsShown)
+    {
+        paintCuts(painter, mCuts, mHoveredCut, *mCanvasToWidget);
+        paintStroke(painter, mCutStroke, *mCanvasToWidget);
+    }
+    else
+    {
+        paintHandles(painter, mHandles, mHovered);
+    }
     if (!mTag.isEmpty())
         paintTag(painter, mTag, mTagPosition, size());
 }

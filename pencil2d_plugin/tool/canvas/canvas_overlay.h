@@ -1,10 +1,11 @@
-// Paints the lit picture and the handles over the canvas of the drawing program.
+// Paints the picture and what the artist can take hold of over the canvas of the drawing program.
 #pragma once
 
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/canvas/handles.h"
 #include "tool/canvas/lit_picture.h"
+#include "tool/depth/cuts.h"
 
 #include <QWidget>
 
@@ -31,8 +32,14 @@ public:
 
     /// While comparing, the drawing is shown as drawn.
     void setComparing(bool comparing);
-    /// Handles are hidden while the animation plays.
+    /// Handles and cuts are hidden while the animation plays.
     void setHandlesShown(bool shown);
+
+    /// Show cuts instead of the handles.
+    void setCutsShown(bool shown);
+    void setCuts(const QVector<Cut>& cuts);
+    void setHoveredCut(int cut);              ///< index, or -1
+    void setCutStroke(const QPolygonF& line); ///< that is being drawn, canvas pixels; empty for none
 
     void setHovered(const Handle& handle);
     const Handle& hovered() const { return mHovered; }
@@ -60,6 +67,10 @@ private:
     QPointF mTagPosition;
     bool mComparing = false;
     bool mHandlesShown = true;
+    bool mCutsShown = false;
+    QVector<Cut> mCuts;
+    int mHoveredCut = -1;
+    QPolygonF mCutStroke;
 };
 
 } // namespace lampblack

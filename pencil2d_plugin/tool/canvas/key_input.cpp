@@ -27,8 +27,9 @@ bool isDelete(int key)
 
 } // namespace
 
-KeyInput::KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input)
-    : QObject(&overlay), mHost(host), mDocument(document), mOverlay(overlay), mInput(input)
+KeyInput::KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input,
+                   CutEditor* cuts)
+    : QObject(&overlay), mHost(host), mDocument(document), mOverlay(overlay), mInput(input), mCuts(cuts)
 {
 }
 
@@ -92,12 +93,15 @@ bool KeyInput::isOurs(const QKeyEvent& key) const
             return stack.canRedo();
     }
     if (key.key() == Qt::Key_Escape)
-        return mInput.isDragging() || mInput.isPicking();
+        return mInput.isDragging() || mInput.isPicking() || (editsCuts() && mCuts->isDrawing());
     if (!focusIsOnCanvas())
         return false;
     const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::KeypadModifier;
     if (key.key() == CompareKey && modifiers == Qt::NoModifier)
         return true;
+    if (editsCuts())
+        return isDelete(key.key()) && modifiers == Qt::NoModifier && mCuts->hovered() != nullptr &&
+               mCuts->hovered()->hint >= 0;
     if (mDocument.selectedLight() < 0)
         return false;
     return (isDelete(key.key()) && modifiers == Qt::NoModifier) ||
@@ -108,7 +112,7 @@ bool KeyInput::handleKey(const QKeyEvent& key)
 {
     if (key.matches(QKeySequence::Undo) || key.matches(QKeySequence::Redo))
     {
-        mInput.cancelDrag();
+        cancelDrag();
         if (key.matches(QKeySequence::Undo))
             mDocument.undoStack()->undo();
         else
@@ -116,12 +120,16 @@ bool KeyInput::handleKey(const QKeyEvent& key)
     }
     else if (key.key() == Qt::Key_Escape)
     {
-        mInput.cancelDrag();
+        cancelDrag();
         mInput.setPicking(false);
     }
     else if (key.key() == CompareKey)
     {
         setComparing(true);
+    }
+    else if (editsCuts())
+    {
+        mCuts->removeCorrection(*mCuts->hovered());
     }
     else if (isDelete(key.key()))
     {
@@ -133,6 +141,13 @@ bool KeyInput::handleKey(const QKeyEvent& key)
         nudge(key);
     }
     return true;
+}
+
+void KeyInput::cancelDrag()
+{
+    mInput.cancelDrag();
+    if (mCuts != nullptr)
+        mCuts->cancelStroke();
 }
 
 bool KeyInput::focusIsOnCanvas() const

@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/canvas/canvas_input.h"
+#include "tool/depth/cut_editor.h"
 #include "tool/gesture.h"
 
 #include <QKeyEvent>
@@ -14,13 +15,15 @@ namespace lampblack
 
 /// Undo and redo change the scene first, wherever the focus is. With the focus on the canvas, arrow keys
 /// nudge the selected light, Delete removes it, Escape cancels a drag, and holding D shows the drawing as
-/// drawn. It is an event filter of the application while it listens.
+/// drawn. While cuts are edited, Delete removes the correction under the pointer instead. It is an event
+/// filter of the application while it listens.
 class KeyInput : public QObject
 {
     Q_OBJECT
 
 public:
-    KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input);
+    KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input,
+             CutEditor* cuts = nullptr);
     ~KeyInput() override;
 
     void setListening(bool listening);
@@ -35,6 +38,8 @@ private:
     bool isOurs(const QKeyEvent& key) const;
     bool handleKey(const QKeyEvent& key);
     bool focusIsOnCanvas() const;
+    bool editsCuts() const { return mCuts != nullptr && mCuts->isListening(); }
+    void cancelDrag();
     void nudge(const QKeyEvent& key);
     void setComparing(bool comparing);
 
@@ -42,6 +47,7 @@ private:
     SceneDocument& mDocument;
     CanvasOverlay& mOverlay;
     CanvasInput& mInput;
+    CutEditor* mCuts; ///< or null
     GestureSequence mNudgeGestures;
     bool mListening = false;
     bool mComparing = false;

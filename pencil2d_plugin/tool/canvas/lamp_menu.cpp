@@ -45,6 +45,7 @@ void LampMenu::fillMenu(const QPointF& canvas, const Handle& handle, const QStri
     if (!colour.isEmpty())
         fillMaterial(colour);
     addSeparator();
+    addEntry("depth", tr("Show Depth: What Is in Front"), [this] { Q_EMIT depthRequested(); });
     addEntry("reset", tr("Reset Lighting"),
              [this] { mDocument.edit(tr("Reset Lighting"), withLightingReset(mDocument.scene())); });
 }

@@ -25,6 +25,7 @@ public:
 
 Q_SIGNALS:
     void editMaterialRequested(const QString& colour);
+    void depthRequested(); ///< to show the Depth view
 
 private:
     void fillMenu(const QPointF& canvas, const Handle& handle, const QString& colour);

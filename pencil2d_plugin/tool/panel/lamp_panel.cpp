@@ -34,8 +34,8 @@ std::optional<Show> modeOf(int button)
 } // namespace
 
 LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
-    : mViews(new QButtonGroup(this)), mProblem(new ProblemCard), mRender(new RenderSection(document, render)),
-      mWorkerLine(new WorkerLine)
+    : mViews(new QButtonGroup(this)), mDepthHelp(new QLabel), mProblem(new ProblemCard),
+      mRender(new RenderSection(document, render)), mWorkerLine(new WorkerLine)
 {
     setObjectName(QStringLiteral("lampblack.panel"));
     setFrameShape(QFrame::NoFrame);
@@ -51,7 +51,13 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
     column->setContentsMargins(3, 3, 3, 3);
     column->setSpacing(3);
     column->addWidget(mProblem);
+    mDepthHelp->setObjectName(QStringLiteral("lampblack.panel.depth_help"));
+    mDepthHelp->setText(tr("Lighter is nearer. The side of a line with teeth is in front.\n"
+                           "Click a line: the other side comes in front. Right-click: more.\n"
+                           "Drag: draw a line that is missing."));
+    mDepthHelp->setWordWrap(true);
     column->addWidget(viewSwitch());
+    column->addWidget(mDepthHelp);
     column->addWidget(mWorkerLine);
     if (!host.can(Host::Ability::View))
     {
@@ -92,7 +98,8 @@ QWidget* LampPanel::viewSwitch()
     };
     add(Show::Lit, QStringLiteral("lit"), tr("Lit"), tr("The drawing in its light"));
     add(Show::Normals, QStringLiteral("normals"), tr("Normals"), tr("Which way the surface faces"));
-    add(Show::Relief, QStringLiteral("relief"), tr("Relief"), tr("How near the surface is"));
+    add(Show::Relief, QStringLiteral("depth"), tr("Depth"),
+        tr("How near the surface is, and which part is in front: correct it with a click"));
     add(std::nullopt, QStringLiteral("flat"), tr("Flat"),
         tr("The drawing as drawn (hold D for a moment's look)"));
     setViewMode(Show::Lit);
@@ -109,6 +116,7 @@ std::optional<Show> LampPanel::viewMode() const
 void LampPanel::setViewMode(std::optional<Show> mode)
 {
     mViews->button(buttonOf(mode))->setChecked(true);
+    mDepthHelp->setVisible(mode == Show::Relief);
 }
 
 void LampPanel::showProblem(const UserError& error)

@@ -8,6 +8,7 @@
 #include "tool/panel/render_section.h"
 
 #include <QButtonGroup>
+#include <QLabel>
 #include <QScrollArea>
 
 namespace lampblack
@@ -41,6 +42,7 @@ private:
     QWidget* viewSwitch();
 
     QButtonGroup* mViews;
+    QLabel* mDepthHelp;
     ProblemCard* mProblem;
     RenderSection* mRender;
     WorkerLine* mWorkerLine;

@@ -154,6 +154,40 @@ private Q_SLOTS:
         QVERIFY(showsPicture());
     }
 
+    void depthIsAskedForWhileItIsShown()
+    {
+        openLit();
+        QVERIFY(mWorker->mOverlaps.isEmpty());
+        find<QAbstractButton>("panel.view.depth")->click();
+        QVERIFY(find<QLabel>("panel.depth_help")->isVisible());
+        QTRY_COMPARE(mWorker->mOverlaps, QVector<int>{1});
+        QTRY_COMPARE(mWorker->mPreviews.last().show, Show::Relief);
+        Overlap arm;
+        arm.points = {{100, 50}, {200, 50}};
+        Q_EMIT mWorker->overlapsArrived(2, {arm, arm});
+        QVERIFY(mStudio->cutPlaces().isEmpty());
+        Q_EMIT mWorker->overlapsArrived(1, {arm});
+        QCOMPARE(mStudio->cutPlaces().size(), 1);
+
+        setPower(2.5); // changes no depth
+        QTest::qWait(20);
+        QCOMPARE(mWorker->mOverlaps, QVector<int>{1});
+        QTest::mouseClick(mHost->mCanvas, Qt::LeftButton, Qt::NoModifier, QPoint(150, 50));
+        QCOMPARE(mWorker->mScenes.last().depth.hints.size(), 1);
+        QTRY_COMPARE(mWorker->mOverlaps, (QVector<int>{1, 1}));
+        Q_EMIT mHost->drawingChanged(1);
+        QTRY_COMPARE(mWorker->mOverlaps.size(), 3);
+        mHost->goToFrame(2);
+        QTRY_COMPARE(mWorker->mOverlaps.last(), 2);
+
+        const int asked = mWorker->mOverlaps.size();
+        find<QAbstractButton>("panel.view.lit")->click();
+        QVERIFY(!find<QLabel>("panel.depth_help")->isVisible());
+        mHost->goToFrame(1);
+        QTest::qWait(20);
+        QCOMPARE(mWorker->mOverlaps.size(), asked);
+    }
+
     void pictureWaitsForItsBackground()
     {
         mHost->open();

@@ -1,0 +1,64 @@
+#include "tool/depth/cut_menu.h"
+
+#include "tool/depth/hint_edit.h"
+
+#include <algorithm>
+
+namespace lampblack
+{
+
+CutMenu::CutMenu(Host& host, SceneDocument& document, CutEditor& editor, QWidget* parent)
+    : QMenu(parent), mHost(host), mDocument(document), mEditor(editor)
+{
+    setObjectName(QStringLiteral("lampblack.cut_menu"));
+}
+
+void CutMenu::openAt(const Cut* cut, const QPoint& global)
+{
+    clear();
+    if (cut != nullptr)
+        fillCut(*cut);
+    fillFrame();
+    popup(global);
+}
+
+QAction* CutMenu::addEntry(const char* name, const QString& text, const std::function<void()>& onTriggered)
+{
+    QAction* action = addAction(text);
+    action->setObjectName(QStringLiteral("lampblack.cut_menu.") + QLatin1String(name));
+    connect(action, &QAction::triggered, this, [onTriggered] { onTriggered(); });
+    return action;
+}
+
+void CutMenu::fillCut(const Cut& cut)
+{
+    const bool isJoined = cut.front == FrontSide::Joined;
+    addEntry("other_side", isJoined ? tr("Open the Step") : tr("Other Side in Front"),
+             [this, cut] { mEditor.bringOtherSideInFront(cut); });
+    addEntry("join", tr("Joined: No Step"), [this, cut] { mEditor.join(cut); })->setEnabled(!isJoined);
+    addEntry("apart", tr("Further Apart"), [this, cut] { mEditor.moveApart(cut); })->setEnabled(!isJoined);
+    addEntry("together", tr("Nearer Together"), [this, cut] { mEditor.moveTogether(cut); })
+        ->setEnabled(!isJoined);
+    if (cut.hint >= 0)
+        addEntry("remove", tr("Remove Correction"), [this, cut] { mEditor.removeCorrection(cut); });
+    addSeparator();
+}
+
+void CutMenu::fillFrame()
+{
+    const QVector<DepthHint>& hints = mDocument.scene().depth.hints;
+    const int frame = mHost.currentFrame();
+    const bool isCorrected = std::any_of(hints.begin(), hints.end(),
+                                         [frame](const DepthHint& hint) { return hint.frame == frame; });
+    addEntry("remove_here", tr("Remove Corrections of Frame %1").arg(frame),
+             [this, frame]
+             { mDocument.edit(tr("Remove Corrections"), withoutHints(mDocument.scene(), frame)); })
+        ->setEnabled(isCorrected);
+    addEntry("remove_all", tr("Remove Corrections of All Frames"),
+             [this] { mDocument.edit(tr("Remove Corrections"), withoutHints(mDocument.scene())); })
+        ->setEnabled(!hints.isEmpty());
+    addSeparator();
+    addEntry("light", tr("Back to the Light"), [this] { Q_EMIT lightRequested(); });
+}
+
+} // namespace lampblack

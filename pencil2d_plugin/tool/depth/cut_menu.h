@@ -1,0 +1,39 @@
+// The context menu of the Depth view.
+#pragma once
+
+#include "host/host.h"
+#include "scene/scene_document.h"
+#include "tool/depth/cut_editor.h"
+
+#include <QMenu>
+
+#include <functional>
+
+namespace lampblack
+{
+
+/// Rebuilt each time it opens.
+class CutMenu : public QMenu
+{
+    Q_OBJECT
+
+public:
+    CutMenu(Host& host, SceneDocument& document, CutEditor& editor, QWidget* parent);
+
+    /// `cut` is the cut under the pointer, or null.
+    void openAt(const Cut* cut, const QPoint& global);
+
+Q_SIGNALS:
+    void lightRequested(); ///< to leave the Depth view
+
+private:
+    void fillCut(const Cut& cut);
+    void fillFrame();
+    QAction* addEntry(const char* name, const QString& text, const std::function<void()>& onTriggered);
+
+    Host& mHost;
+    SceneDocument& mDocument;
+    CutEditor& mEditor;
+};
+
+} // namespace lampblack
