@@ -9,7 +9,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from lampblack.choices import FrontSide
 from lampblack.normals.prediction import Prediction, pack_order, unpack_order
+from lampblack.scene import DepthHint, DepthPoint
 from lampblack.surface import build_relief, check_relief, dividing_lines, solve, solve_with_overlaps
 from lampblack.surface.cuts import Cuts, across
 from lampblack.surface.direct import Prior, inflate_direct
@@ -183,3 +185,77 @@ def test_what_is_kept_of_a_prediction_comes_back() -> None:
         assert np.array_equal(here.points, there.points)
         assert (here.front, here.amount, here.hinted) == (there.front, there.amount, there.hinted)
     assert unpack_overlaps(pack_overlaps([])) == ()
+
+
+def hint(points: Image, front: FrontSide, amount: float = 0.0) -> DepthHint:
+    return DepthHint(1, tuple(DepthPoint(float(x), float(y)) for x, y in points), front, amount)
+
+
+def lifted(height: Image, mask: Mask) -> float:
+    """How far the small disk stands before the large one."""
+    inner, outer = disk(120, 100, 38), mask & ~disk(120, 100, 52)
+    return float(height[inner].mean() - height[outer].mean())
+
+
+def rim(radius: float = 44, count: int = 24) -> Image:
+    turn = np.linspace(0, 2 * np.pi, count)
+    points = [100 + radius * np.cos(turn), 120 + radius * np.sin(turn)]
+    return np.stack(points, axis=1).astype(np.float32)
+
+
+@pytest.mark.parametrize("off", [0, 2])
+def test_a_hint_swaps_what_is_in_front(off: int) -> None:
+    """The prediction says otherwise, so it brings a step of its own; it need not be drawn well."""
+    seen, mask, lines, _ = two_disks()
+    _, (found,) = solve_with_overlaps(seen, mask, lines)
+    other: FrontSide = "left" if found.front == "right" else "right"
+    clicked = found.points[:: len(found.points) // 30] + off
+    height, (overlap,) = solve_with_overlaps(seen, mask, lines, [hint(clicked, other)])
+    assert overlap.hinted
+    assert overlap.amount == pytest.approx(0.03 * 190, rel=0.05)
+    assert lifted(height, mask) == pytest.approx(-overlap.amount, rel=0.1)
+
+
+def test_a_hint_has_its_own_amount_and_a_drawn_one_cuts_where_nothing_was_found() -> None:
+    seen, mask, lines, _ = two_disks()
+    flat = Prediction(seen.normals)
+    assert not solve_with_overlaps(flat, mask, lines)[1]
+    for given in (hint(rim(42), "right", 0.1), hint(rim(42)[::-1], "left", 0.1)):
+        for drawn in (lines, lines * 0):
+            height, (overlap,) = solve_with_overlaps(flat, mask, drawn, [given])
+            assert overlap.amount == pytest.approx(0.1 * 190)
+            assert lifted(height, mask) == pytest.approx(0.1 * 190, rel=0.1)
+
+
+def test_a_hint_joins_what_was_cut() -> None:
+    seen, mask, lines, _ = two_disks()
+    height, (overlap,) = solve_with_overlaps(seen, mask, lines, [hint(rim(), "joined")])
+    assert (overlap.front, overlap.amount, overlap.hinted) == ("joined", 0, True)
+    assert np.array_equal(height, solve(seen.normals, mask))
+
+
+def test_a_click_is_about_the_whole_overlap_and_one_far_from_all_about_none() -> None:
+    seen, mask, lines, _ = two_disks()
+    on, off = np.array([[145, 120]], np.float32), np.array([[100, 120]], np.float32)
+    height, _ = solve_with_overlaps(seen, mask, lines, [hint(on, "joined")])
+    assert np.array_equal(height, solve(seen.normals, mask))
+    untouched, _ = solve_with_overlaps(seen, mask, lines, [hint(off, "joined")])
+    assert np.array_equal(untouched, solve_with_overlaps(seen, mask, lines)[0])
+
+
+def test_a_hint_about_a_part_leaves_the_rest() -> None:
+    seen, mask, lines, _ = two_disks()
+    _, (found,) = solve_with_overlaps(seen, mask, lines)
+    quarter = rim()[2:7]
+    _, overlaps = solve_with_overlaps(seen, mask, lines, [hint(quarter, "joined")])
+    rest, joined = sorted(overlaps, key=lambda overlap: overlap.hinted)
+    assert joined.hinted
+    assert rest.front == found.front
+    assert 0.6 < len(rest.points) / len(found.points) < 0.9
+
+
+def test_hints_beyond_the_drawing_do_nothing() -> None:
+    seen, mask, lines, _ = two_disks()
+    wild = [hint(rim() * 1e30, "left"), hint(rim() * 0, "right"), hint(rim()[:0], "left")]
+    height, _ = solve_with_overlaps(seen, mask, lines, wild)
+    assert np.array_equal(height, solve_with_overlaps(seen, mask, lines)[0])

@@ -8,17 +8,15 @@ through, so a cut has no leaks.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import FrontSide
 from ..compiled import compiled
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
-
-Side = Literal["left", "right"]
 
 NEAR = 2
 """Pixels around a curve that are told which side of it they are on."""
@@ -53,7 +51,7 @@ class Cuts:
         _cut(points, towards, steps, mask, self.right, self.down)
 
 
-def across(points: Floats, side: Side) -> Floats:
+def across(points: Floats, side: FrontSide) -> Floats:
     """(N, 2) float32 x, y, unit: across a line of (N, 2) points x, y, at each to that side of it
     for a walker from the first to the last."""
     if len(points) < 2:

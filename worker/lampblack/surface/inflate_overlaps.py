@@ -7,7 +7,8 @@ from its normals with the steps, so that all its slopes stay those of the normal
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,10 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ..normals.prediction import Prediction
+from ..scene import DepthHint, DepthPoint
 from .cuts import Cuts, Floats, across, jumps_across
 from .direct import Prior, inflate_direct
+from .hinted import apply_hints
 from .occlusions import Occlusion, find_occlusions
 from .overlap import Overlap
 from .solver import rest_on_border, solve, usable_normals
@@ -35,6 +38,8 @@ GAIN = 1.5
 too large."""
 LEAST, LARGEST = 0.02, 0.3
 """Limits of a step; shares of the length."""
+LEAST_HINTED = 0.03
+"""The same where the artist says what is in front: the prediction may say otherwise."""
 TAPER = 0.05
 """A step falls to 0 over this distance from an end where its sides join; share of the length."""
 POOL = 0.01
@@ -59,14 +64,20 @@ def dividing_lines(
 
 
 def solve_with_overlaps(
-    prediction: Prediction, mask: NDArray[np.bool_], lines: NDArray[np.float32]
+    prediction: Prediction,
+    mask: NDArray[np.bool_],
+    lines: NDArray[np.float32],
+    hints: Sequence[DepthHint] = (),
 ) -> tuple[NDArray[np.float32], list[Overlap]]:
     """Inflate a prediction, with steps where parts overlap.
 
     Args:
-        prediction: of (H, W). Without depth, the surface has no steps.
+        prediction: of (H, W). Without depth, the surface has no steps but those of hints.
         mask: (H, W) bool, True inside the character.
         lines: (H, W) float32 in 0..1, the lines at which a part may end.
+        hints: what the artist says, in pixels of (H, W), whatever their frames. Each wins over
+            what was found where it is drawn: see ``apply_hints``. Of two that say something about
+            one place, the last counts.
 
     Returns:
         (H, W) float32 height as from ``solve``, and the overlaps along which it steps, the longest
@@ -75,15 +86,24 @@ def solve_with_overlaps(
     Raises:
         ValueError: the shapes do not fit.
     """
-    if prediction.depth is None or prediction.edge is None or not mask.any():
+    depth, edge = prediction.depth, prediction.edge
+    if not mask.any() or ((depth is None or edge is None) and not hints):
         return solve(prediction.normals, mask), []
     normals = usable_normals(prediction.normals, mask)
-    small = _small(normals, prediction.depth, prediction.edge, mask, lines)
+    unknown = np.zeros(mask.shape, np.float32)
+    small = _small(
+        normals,
+        unknown if depth is None else depth,
+        unknown if edge is None else edge,
+        mask,
+        lines,
+    )
     cuts, overlaps = Cuts.none(mask.shape), []
-    for occlusion, small_steps in _steps(small):
+    for occlusion, small_steps in _steps(small, hints):
         points, steps = small.on_canvas(occlusion.points), small_steps * small.by
-        cuts.add(points, across(points, occlusion.front), steps, mask)
-        overlaps.append(Overlap(points, occlusion.front, float(steps.mean())))
+        if occlusion.front != "joined":
+            cuts.add(points, across(points, occlusion.front), steps, mask)
+        overlaps.append(Overlap(points, occlusion.front, float(steps.mean()), occlusion.hinted))
     overlaps.sort(key=lambda overlap: len(overlap.points), reverse=True)
     height = inflate_direct(normals, mask, cuts if overlaps else None)
     return rest_on_border(height, mask), overlaps
@@ -102,6 +122,12 @@ class _Small:
     depth: Floats
     edge: Floats
     ink: NDArray[np.bool_]
+
+    def of_canvas(self, hint: DepthHint) -> DepthHint:
+        """A hint, in pixels of this."""
+        (top, left), by = self.corner, self.by
+        moved = (DepthPoint((p.x - left) / by, (p.y - top) / by) for p in hint.points)
+        return replace(hint, points=tuple(moved))
 
     def on_canvas(self, points: Floats) -> Floats:
         """Points x, y of this, on the canvas."""
@@ -139,17 +165,21 @@ def _small(
     )
 
 
-def _steps(small: _Small) -> list[tuple[Occlusion, Floats]]:
+def _steps(small: _Small, hints: Sequence[DepthHint]) -> list[tuple[Occlusion, Floats]]:
     """The occlusions and the steps along them, in pixels of ``small``."""
     strokes = find_strokes(small.ink, small.length)
-    if not strokes:
+    if not strokes and not hints:
         return []
     order = small.depth + inflate_direct(small.normals, small.mask, tolerance=ROUGH)
     found = find_occlusions(strokes, small.ink, order, small.edge, small.mask, small.length)
+    inside = [small.of_canvas(hint) for hint in hints]
+    found = apply_hints(found, strokes, inside, small.mask, small.length)
     if not found:
         return []
     cuts = Cuts.none(small.mask.shape)
     for occlusion in found:
+        if occlusion.front == "joined":
+            continue
         ones = np.ones(len(occlusion.points), np.float32)
         cuts.add(occlusion.points, occlusion.towards, ones, small.mask)
     prior = Prior(small.depth, (PRIOR / small.length) ** 2)
@@ -157,9 +187,15 @@ def _steps(small: _Small) -> list[tuple[Occlusion, Floats]]:
     reach = max(1, round(POOL * small.length))
     measured = []
     for occlusion in found:
+        if occlusion.front == "joined":
+            measured.append((occlusion, np.zeros(len(occlusion.points), np.float32)))
+            continue
         jumps = jumps_across(occlusion.points, occlusion.towards, held, small.mask, cuts)
         steps = GAIN * mean_along(jumps, np.isfinite(jumps), reach)
-        steps = np.clip(steps, LEAST * small.length, LARGEST * small.length)
+        least = LEAST_HINTED if occlusion.hinted else LEAST
+        steps = np.clip(steps, least * small.length, LARGEST * small.length)
+        if occlusion.amount > 0:
+            steps = np.full_like(steps, occlusion.amount * small.length)
         measured.append((occlusion, steps * _taper(occlusion, TAPER * small.length)))
     return measured
 

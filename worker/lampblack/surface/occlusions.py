@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import FrontSide
 from ..compiled import compiled
-from .cuts import Floats, Side, across
+from .cuts import Floats, across
 from .strokes import Stroke, mean_along
 
 EDGE = 0.45
@@ -51,13 +52,17 @@ class Occlusion:
 
     Attributes:
         points: (N, 2) float32 x, y in pixels of the grid, about one pixel apart.
-        front: the side in front, walking along the points.
+        front: the side in front, walking along the points; "joined" only if a hint says so.
         open_ends: whether the two sides join beyond the first point, and beyond the last.
+        hinted: the artist said so.
+        amount: the step, as a share of the character's length; 0 where it is found.
     """
 
     points: Floats
-    front: Side
+    front: FrontSide
     open_ends: tuple[bool, bool]
+    hinted: bool = False
+    amount: float = 0.0
 
     @property
     def towards(self) -> Floats:
@@ -97,7 +102,7 @@ def find_occlusions(
         clear = known & (sure > EDGE) & (np.hypot(*mean_left) > STEADY)
         faint = sure > EDGE_GOES_ON
         share = step / np.float32(length)
-        sides: tuple[tuple[Side, Floats], ...] = ("left", share), ("right", -share)
+        sides: tuple[tuple[FrontSide, Floats], ...] = ("left", share), ("right", -share)
         for front, ahead in sides:
             start, goes_on = clear & (ahead > STEP), faint & (ahead > STEP_GOES_ON)
             found += _runs(stroke, start, goes_on, known, front, length)
@@ -109,7 +114,7 @@ def _runs(
     start: NDArray[np.bool_],
     goes_on: NDArray[np.bool_],
     known: NDArray[np.bool_],
-    front: Side,
+    front: FrontSide,
     length: float,
 ) -> list[Occlusion]:
     """The parts of a stroke that go on, where enough of each is a start."""
