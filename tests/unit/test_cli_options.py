@@ -11,7 +11,14 @@ import msgspec
 import pytest
 import typer
 
-from lampblack.choices import FileFormat, FrameLayers, LayerRole, QualityName, SolverName
+from lampblack.choices import (
+    BodyChoice,
+    FileFormat,
+    FrameLayers,
+    LayerRole,
+    QualityName,
+    SolverName,
+)
 from lampblack.cli.app import COMMANDS, DATASET_COMMANDS
 from lampblack.cli.lazy import LazyCommand
 from lampblack.cli.options import OPTIONS, with_settings
@@ -103,6 +110,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         grids=random.randint(1, 64),
         solver=random.choice(get_args(SolverName)),
         roles={name: random.choice(get_args(LayerRole)) for name in few()},
+        bodies={name: random.choice(get_args(BodyChoice)) for name in few()},
         camera=random.choice(texts),
         layers=random.choice(get_args(FrameLayers)),
         steady=random.random() < 0.5,
@@ -124,5 +132,6 @@ def test_settings_survive_the_command_line() -> None:
 
 
 def test_every_setting_has_an_option() -> None:
-    made = {"input": "inputs", "frame": "frames"} | dict.fromkeys(get_args(LayerRole), "roles")
+    made = {"input": "inputs", "frame": "frames", "layer_body": "bodies"}
+    made |= dict.fromkeys(get_args(LayerRole), "roles")
     assert {made.get(name, name) for name in OPTIONS} == set(RenderSettings.__struct_fields__)

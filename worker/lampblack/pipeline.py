@@ -20,14 +20,16 @@ from .cache import digest as digest_of
 from .choices import DEFAULT_GRIDS, PipelineOptions
 from .composite import composite
 from .drawing import Drawing, DrawingPlanes
+from .drawing.morphology import from_nearest
 from .normals.predict import NormalPredictor
 from .normals.prediction import Prediction, pack_order, unpack_order
-from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter
+from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter, body_neighbours
 from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from .prepared import PreparedDrawing, block_middles, character_box
 from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
 from .render.light_pass_cache import LightPassCache
 from .scene import Scene
+from .stacked import seen_height, seen_normals, seen_overlaps, stack_bodies
 from .surface import Overlap, dividing_lines, guided_filter, solve, solve_with_overlaps
 from .surface.overlap import pack_overlaps, unpack_overlaps
 
@@ -146,7 +148,9 @@ class Pipeline:
         neighbours: LazyNeighbours | None = None,
     ) -> NDArray[np.float32]:
         """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask. With
-        ``neighbours`` it passes the temporal filter."""
+        ``neighbours`` it passes the temporal filter. Of several bodies, the topmost is seen."""
+        if drawing.bodies:
+            return self._seen_normals(drawing, progress, neighbours)
         return self._predicted(drawing, progress, neighbours).normals
 
     def _predicted(
@@ -255,6 +259,8 @@ class Pipeline:
             progress: called with the share done, 0 to 1, of predicting normals.
             with_normals: keep them in the result.
         """
+        if drawing.bodies:
+            return self._prepare_bodies(drawing, neighbours, digest, progress, with_normals)
         height, overlaps = self.surface(drawing, progress, neighbours)
         normals = self.normals(drawing, progress, neighbours) if with_normals else None
         step = surface_step(drawing)
@@ -272,6 +278,52 @@ class Pipeline:
             overlaps=overlaps,
         )
 
+    def _prepare_bodies(
+        self,
+        drawing: Drawing,
+        neighbours: LazyNeighbours | None,
+        digest: str,
+        progress: Progress,
+        with_normals: bool,
+    ) -> PreparedDrawing:
+        own = [
+            self.prepare(body.drawing, body_neighbours(neighbours, body.name), progress=progress)
+            for body in drawing.bodies
+        ]
+        bodies = stack_bodies(drawing.bodies, own, 1)
+        step = surface_step(drawing)
+        rows, columns = (side // step for side in drawing.mask.shape)
+        mask = block_middles(drawing.mask, step)[:rows, :columns]
+        return PreparedDrawing(
+            digest=digest,
+            detail="full",
+            size=drawing.size,
+            step=1,
+            layers=drawing,
+            scale=float(step),
+            height=seen_height(bodies, mask, step),
+            mask=mask,
+            normals=self.normals(drawing, progress, neighbours) if with_normals else None,
+            box=character_box(drawing.mask, 1),
+            overlaps=seen_overlaps(bodies),
+            bodies=bodies,
+        )
+
+    def _seen_normals(
+        self, drawing: Drawing, progress: Progress, neighbours: LazyNeighbours | None
+    ) -> NDArray[np.float32]:
+        """The normals of the topmost body at each pixel."""
+        seen = np.zeros((*drawing.mask.shape, 3), np.float32)
+        for body in drawing.bodies:
+            around = body_neighbours(neighbours, body.name)
+            normals, inside = self.normals(body.drawing, progress, around), body.drawing.mask
+            if body.rim.any():
+                normals, inside = from_nearest(normals, inside), inside | body.rim
+            rows, columns = inside.shape
+            place = slice(body.top, body.top + rows), slice(body.left, body.left + columns)
+            seen[place][inside] = normals[inside]
+        return seen
+
     def prepare_quick(self, planes: DrawingPlanes, digest: str = "") -> PreparedDrawing:
         """Prepare a drawing in quick detail, in a fraction of a second: small, from quick normals,
         which are neither cached nor filtered.
@@ -282,6 +334,34 @@ class Pipeline:
         height, width = planes.pixels.shape[:2]
         step = -(-max(width, height) // QUICK_PX)
         drawing = planes.reduced(step).decompose()
+        if not drawing.bodies:
+            return self._prepare_quick(drawing, (width, height), step, digest)
+        own = [
+            self._prepare_quick(
+                b.drawing, (step * b.drawing.size[0], step * b.drawing.size[1]), step
+            )
+            for b in drawing.bodies
+        ]
+        bodies = stack_bodies(drawing.bodies, own, step)
+        return PreparedDrawing(
+            digest=digest,
+            detail="quick",
+            size=(width, height),
+            step=step,
+            layers=drawing,
+            scale=float(step),
+            height=seen_height(bodies, drawing.mask, step),
+            mask=drawing.mask,
+            normals=seen_normals(bodies, drawing.mask, step),
+            box=character_box(drawing.mask, step),
+            bodies=bodies,
+        )
+
+    def _prepare_quick(
+        self, drawing: Drawing, size: tuple[int, int], step: int, digest: str = ""
+    ) -> PreparedDrawing:
+        """``drawing`` is a copy of one of ``size`` (width, height), smaller by ``step``."""
+        width, height = size
         lines, mask = _halved(drawing)
         normals = self._predictor.predict(lines, mask, quick=True).normals
         scale = width / mask.shape[1]

@@ -10,14 +10,15 @@ from numpy.typing import NDArray
 
 from .composite.byte_layers import ByteLayers, byte_layers_of
 from .composite.resample import Box
-from .drawing import Drawing
+from .drawing import Drawing, Palette
 from .render import Surface, assign_materials, vertex_pixels
 from .scene import Scene
-from .surface import Relief, build_relief
+from .surface import Base, Relief, build_relief, joined_reliefs
 from .surface.overlap import Overlap
 
 Detail = Literal["quick", "full"]
 
+Places = NDArray[np.intp]
 Sample = TypeVar("Sample", bound=np.generic)
 
 
@@ -37,6 +38,8 @@ class PreparedDrawing:
             ``layers`` or ``mask``, or (h, w, 3) float16 when compact. None if not requested.
         box: box around the character, in pixels of the drawing.
         overlaps: where the height steps because one part is in front of another, longest first.
+        bodies: its parts, bottom first, if it has several. Each of them is lit as a surface of its
+            own; height and normals are then those that are seen, of the topmost body.
     """
 
     digest: str
@@ -50,12 +53,22 @@ class PreparedDrawing:
     normals: NDArray[np.float32] | NDArray[np.float16] | None
     box: Box
     overlaps: tuple[Overlap, ...] = ()
+    bodies: tuple[PreparedBody, ...] = ()
 
     @property
     def nbytes(self) -> int:
         """Memory in bytes."""
         normals = 0 if self.normals is None else self.normals.nbytes
-        return self.layers.nbytes + self.height.nbytes + self.mask.nbytes + normals
+        parts = sum(body.drawing.nbytes for body in self.bodies)
+        return self.layers.nbytes + self.height.nbytes + self.mask.nbytes + normals + parts
+
+    @property
+    def palette(self) -> Palette:
+        """The flat colours, also those that are covered: a colour that several bodies have is in
+        it several times."""
+        if not self.bodies:
+            return self.layers.palette
+        return Palette(tuple(s for body in self.bodies for s in body.drawing.palette.swatches))
 
     def compact(self) -> PreparedDrawing:
         """The same drawing in a third of the memory: byte layers, and normals as float16."""
@@ -66,11 +79,15 @@ class PreparedDrawing:
             step = max(1, round(self.scale / self.step))
             rows, columns = self.mask.shape
             normals = block_middles(self.normals, step)[:rows, :columns].astype(np.float16)
-        return replace(self, layers=byte_layers_of(self.layers), normals=normals)
+        bodies = tuple(replace(body, drawing=body.drawing.compact()) for body in self.bodies)
+        return replace(self, layers=byte_layers_of(self.layers), normals=normals, bodies=bodies)
 
     def relief(self, *, stride: int = 1, relief_scale: float = 1.0) -> Relief:
         """The character's closed mesh in pixels of the drawing, one vertex every ``stride``
         pixels of the height."""
+        if self.bodies:
+            spacing = stride * self.scale
+            return joined_reliefs([body.relief(spacing, relief_scale) for body in self.bodies])
         scale = np.float32(self.scale)
         relief = build_relief(
             self.height / scale, self.mask, stride=stride, relief_scale=relief_scale
@@ -85,10 +102,75 @@ class PreparedDrawing:
 
     def with_materials(self, relief: Relief, scene: Scene) -> Surface:
         """``relief``, in pixels of the drawing, with the materials of ``scene``."""
-        labels = self.layers.labels
-        row, column = vertex_pixels(labels, relief.vertices / np.float32(self.step))
-        albedo = self.layers.albedo_at(row, column)
-        return assign_materials(relief, albedo, labels[row, column], self.layers.palette, scene)
+        return assign_materials(relief, *self.paint_at(relief), self.palette, scene)
+
+    def paint_at(self, relief: Relief) -> tuple[NDArray[np.float32], NDArray[np.int16]]:
+        """The paint at each of the V vertices of ``relief``, that of their own body: (V, 3) sRGB
+        albedo in 0..1, and (V,) index into ``palette``, -1 for none."""
+        if not self.bodies or relief.bodies is None:
+            labels = self.layers.labels
+            row, column = vertex_pixels(labels, relief.vertices / np.float32(self.step))
+            return self.layers.albedo_at(row, column), labels[row, column]
+        albedo = np.zeros((len(relief.vertices), 3), np.float32)
+        found = np.full(len(relief.vertices), -1, np.int16)
+        first = 0
+        for index, body in enumerate(self.bodies):
+            own = relief.bodies == index
+            part = Relief(relief.vertices[own] - body.corner, relief.faces[:0])
+            albedo[own], label = body.drawing.paint_at(part)
+            found[own] = np.where(label >= 0, label + np.int16(first), np.int16(-1))
+            first += len(body.drawing.palette.swatches)
+        return albedo, found
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedBody:
+    """A body of a drawing.
+
+    Attributes:
+        name: the artist's name of its layer.
+        left, top: corner of the body's own drawing in the whole, in pixels of the whole.
+        drawing: the body alone, also where others cover it; its height is that over the base.
+        base: what it rests on, in pixels of the whole.
+    """
+
+    name: str
+    left: int
+    top: int
+    drawing: PreparedDrawing
+    base: Base
+
+    @property
+    def corner(self) -> NDArray[np.float32]:
+        """(3,) from the body's own pixels to those of the whole."""
+        return np.array([self.left, self.top, 0], np.float32)
+
+    def relief(self, spacing: float, relief_scale: float) -> Relief:
+        """The body's mesh in pixels of the whole, one vertex about every ``spacing`` pixels."""
+        stride = max(1, round(spacing / self.drawing.scale))
+        own = self.drawing.relief(stride=stride, relief_scale=relief_scale)
+        vertices = own.vertices + self.corner
+        vertices[:, 2] += relief_scale * self.base.at(vertices[:, 0], vertices[:, 1])
+        return replace(own, vertices=vertices)
+
+    def seen_on(self, shape: tuple[int, ...], scale: float) -> tuple[Places, Places, Places]:
+        """Where the body lies on an array of ``shape`` over the whole, each element ``scale``
+        pixels wide: rows and columns there, and the index of each in the flattened arrays of the
+        body's own drawing."""
+        own = self.drawing
+        rows, columns = (
+            ((np.arange(count) + 0.5) * scale - start) / own.scale
+            for count, start in zip(shape, (self.top, self.left), strict=True)
+        )
+        row, column = (np.floor(place).astype(np.intp) for place in (rows, columns))
+        near_row, near_column = (
+            np.flatnonzero((place >= 0) & (place < size))
+            for place, size in zip((row, column), own.mask.shape, strict=True)
+        )
+        inside = own.mask[np.ix_(row[near_row], column[near_column])]
+        r, c = np.nonzero(inside)
+        at = row[near_row][r] * own.mask.shape[1] + column[near_column][c]
+        return near_row[r], near_column[c], at
 
 
 def block_middles(plane: NDArray[Sample], step: int) -> NDArray[Sample]:

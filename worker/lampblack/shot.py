@@ -16,6 +16,49 @@ Picture = NDArray[np.uint8]
 Sample = TypeVar("Sample", np.uint8, np.float32)
 
 
+MAX_LAYERS = 16
+"""Layers of a cel that are kept apart."""
+
+
+@dataclass(frozen=True, eq=False)
+class CelLayer:
+    """One layer of a cel; what lies outside ``pixels`` is empty.
+
+    Attributes:
+        name: the artist's name of the layer; several layers may share one.
+        pixels: (h, w, 4) uint8 sRGB, straight alpha.
+        left, top: corner of ``pixels`` in the cel.
+        line: whether the artist says that the layer holds nothing but line.
+    """
+
+    name: str
+    pixels: Picture
+    left: int = 0
+    top: int = 0
+    line: bool = False
+
+    def placed(self, size: tuple[int, int]) -> Picture:
+        """The layer in a cel of ``size`` (width, height): (H, W, 4) uint8."""
+        height, width = self.pixels.shape[:2]
+        if (width, height) == size:
+            return self.pixels
+        whole = np.zeros((size[1], size[0], 4), np.uint8)
+        whole[self.top : self.top + height, self.left : self.left + width] = self.pixels
+        return whole
+
+
+def cropped_layer(name: str, picture: Picture, *, line: bool = False) -> CelLayer | None:
+    """A layer without its empty margins; None if it is empty. ``picture`` is as large as the cel,
+    (H, W, 4) uint8."""
+    drawn = picture[..., 3] > 0
+    rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
+    if not len(rows):
+        return None
+    top, left = int(rows[0]), int(columns[0])
+    part = picture[top : int(rows[-1]) + 1, left : int(columns[-1]) + 1]
+    return CelLayer(name, part.copy(), left, top, line)
+
+
 @dataclass(frozen=True)
 class Cel:
     """The drawing of a frame that is lit, in its own pixels.
@@ -23,11 +66,14 @@ class Cel:
     Attributes:
         pixels: (H, W, 4) uint8 sRGB, straight alpha.
         mask, ink: the artist's own, same shape, or None; see ``decompose_drawing``.
+        layers: the layers that ``pixels`` was painted from, bottom first; none if there is only
+            one, or they are not known.
     """
 
     pixels: Picture
     mask: Picture | None = None
     ink: Picture | None = None
+    layers: tuple[CelLayer, ...] = ()
 
 
 @dataclass(frozen=True)

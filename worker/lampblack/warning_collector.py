@@ -28,9 +28,12 @@ def install_warning_collector() -> None:
 
 @contextmanager
 def collect_warnings() -> Iterator[list[str]]:
-    """A context that yields the texts of this thread's warnings in it."""
-    _local.collected = []
+    """A context that yields the texts of this thread's warnings in it, but for those in contexts
+    within it."""
+    around = getattr(_local, "collected", None)
+    collected: list[str] = []
+    _local.collected = collected
     try:
-        yield _local.collected
+        yield collected
     finally:
-        _local.collected = None
+        _local.collected = around

@@ -14,7 +14,7 @@ from .outputs import check_suffix, keep_inputs
 
 @with_settings(
     *("input", "frame", "scene", "quality", "character", "line", "background", "camera"),
-    *("steady", "mask", "ink"),
+    *("layer_body", "steady", "mask", "ink"),
 )
 def export(
     settings: RenderSettings,

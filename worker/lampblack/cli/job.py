@@ -18,7 +18,7 @@ from .outputs import check_suffix
 
 @with_settings(
     *("input", "scene", "quality", "frames", "format", "character", "line", "background"),
-    *("camera", "steady", "mask", "ink"),
+    *("layer_body", "camera", "steady", "mask", "ink"),
 )
 def job(
     settings: RenderSettings,

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Concatenate, ParamSpec, get_args, get_type_hi
 import msgspec
 import typer
 
-from ..choices import LayerRole
+from ..choices import BodyChoice, LayerRole
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
 
@@ -69,6 +69,12 @@ OPTIONS: dict[str, Any] = {
     "background": typer.Option(
         "--background", metavar="LAYER", help="Project layer to leave unlit. May be repeated."
     ),
+    "layer_body": typer.Option(
+        "--layer-body",
+        metavar="LAYER=BODY",
+        help="Surface of a layer: own, below (part of the body below), flat (on it) or auto. "
+        "May be repeated.",
+    ),
     "camera": typer.Option(
         "--camera", metavar="LAYER", help="Camera layer of the project. Default: the first one."
     ),
@@ -99,15 +105,15 @@ OPTIONS: dict[str, Any] = {
     ),
     "again": typer.Option("--again", help="Render frames again whose files are up to date."),
 }
-"""In the order of ``--help``, by the field of ``RenderSettings``; ``input``, ``frame`` and the
-roles of layers stand for the fields that ``_settings`` makes from them."""
+"""In the order of ``--help``, by the field of ``RenderSettings``; ``input``, ``frame``,
+``layer_body`` and the roles of layers stand for the fields that ``_settings`` makes from them."""
 
 _REQUIRED = "input", "inputs", "output"
 _DEFAULTS = {field.name: field.default for field in msgspec.structs.fields(RenderSettings)}
 _TYPES = (
     get_type_hints(RenderSettings)
     | {"input": str, "inputs": list[str], "lights": list[str] | None, "frame": int | None}
-    | dict.fromkeys(get_args(LayerRole), list[str] | None)
+    | dict.fromkeys((*get_args(LayerRole), "layer_body"), list[str] | None)
 )
 
 Own = ParamSpec("Own")
@@ -153,7 +159,7 @@ def _settings(given: dict[str, Any]) -> RenderSettings:
     """Settings from the values of options; None leaves a field at its default.
 
     Raises:
-        LampblackError: a layer was named twice.
+        LampblackError: a layer was named twice, or the surface of one is not known.
     """
     roles: dict[str, LayerRole] = {}
     for role in get_args(LayerRole):
@@ -161,9 +167,23 @@ def _settings(given: dict[str, Any]) -> RenderSettings:
             if layer in roles:
                 raise LampblackError("A layer was named twice.", "Give each layer one role.")
             roles[layer] = role
+    bodies = dict(_layer_body(text) for text in given.pop("layer_body", None) or ())
     if "input" in given:
         given["inputs"] = [given.pop("input")]
     if (frame := given.pop("frame", None)) is not None:
         given["frames"] = str(frame)
     named = {name: value for name, value in given.items() if value is not None}
-    return msgspec.convert({"inputs": (), "output": "", "roles": roles} | named, RenderSettings)
+    return msgspec.convert(
+        {"inputs": (), "output": "", "roles": roles, "bodies": bodies} | named, RenderSettings
+    )
+
+
+def _layer_body(text: str) -> tuple[str, BodyChoice]:
+    layer, _, named = text.rpartition("=")
+    for body in get_args(BodyChoice):
+        if layer and body == named:
+            return layer, body
+    raise LampblackError(
+        f"{text!r} does not say what surface a layer gets.",
+        f"Write it as LAYER=BODY, where BODY is {', '.join(get_args(BodyChoice))}.",
+    )

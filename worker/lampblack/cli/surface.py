@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..finals.targets import Targets
 
 
-@with_settings("inputs", "frames", "grids", "steady", "mask", "ink")
+@with_settings("inputs", "frames", "grids", "layer_body", "steady", "mask", "ink")
 def normals(
     settings: RenderSettings,
     output: Annotated[
@@ -49,7 +49,9 @@ def normals(
 
     shot, targets = _resolve(settings, output, "png", "npy")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids)) as pipeline:
-        around = NeighbourLoader(shot.shot, pipeline, shot.reach)
+        around = NeighbourLoader(
+            shot.shot, pipeline, shot.reach, choices=shot.overrides.layer_bodies
+        )
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Predicting", around.drawing):
             found = pipeline.normals(drawing, neighbours=around.neighbours(frames[0]))
@@ -63,7 +65,7 @@ def normals(
                     save_picture(targets.path(frame), picture)
 
 
-@with_settings("inputs", "frames", "solver", "grids", "steady", "mask", "ink")
+@with_settings("inputs", "frames", "solver", "grids", "layer_body", "steady", "mask", "ink")
 def mesh(
     settings: RenderSettings,
     output: Annotated[
@@ -98,7 +100,9 @@ def mesh(
 
     shot, targets = _resolve(settings, output, "glb", "obj", "ply")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids, settings.solver)) as pipeline:
-        around = NeighbourLoader(shot.shot, pipeline, shot.reach)
+        around = NeighbourLoader(
+            shot.shot, pipeline, shot.reach, choices=shot.overrides.layer_bodies
+        )
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
             neighbours = around.neighbours(frames[0])
@@ -108,7 +112,7 @@ def mesh(
                 save_mesh(relief, targets.path(frame))
 
 
-@with_settings("inputs", "frames", "depth_hints", "steady", "mask", "ink")
+@with_settings("inputs", "frames", "depth_hints", "layer_body", "steady", "mask", "ink")
 def height(
     settings: RenderSettings,
     output: Annotated[
@@ -130,7 +134,7 @@ def height(
     _write_heights(settings, output, "npy")
 
 
-@with_settings("inputs", "frames", "depth_hints", "steady", "mask", "ink")
+@with_settings("inputs", "frames", "depth_hints", "layer_body", "steady", "mask", "ink")
 def depth(
     settings: RenderSettings,
     output: Annotated[
@@ -165,7 +169,9 @@ def _write_heights(settings: RenderSettings, output: str, *kinds: str) -> None:
 
     shot, targets = _resolve(settings, output, *kinds)
     with Pipeline(surface_cache()) as pipeline:
-        around = NeighbourLoader(shot.shot, pipeline, shot.reach)
+        around = NeighbourLoader(
+            shot.shot, pipeline, shot.reach, choices=shot.overrides.layer_bodies
+        )
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
             prepared = pipeline.prepare(drawing, around.neighbours(frames[0]))

@@ -14,7 +14,9 @@ from .options import with_settings
 from .outputs import check_suffix, keep_inputs
 
 
-@with_settings("input", "frame", "scene", "character", "line", "steady", "mask", "ink")
+@with_settings(
+    "input", "frame", "scene", "character", "line", "layer_body", "steady", "mask", "ink"
+)
 def turntable(
     settings: RenderSettings,
     output: Annotated[

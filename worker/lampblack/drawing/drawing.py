@@ -32,6 +32,8 @@ class Drawing:
             pixels past the mask.
         labels: (H, W) int16 index into ``palette.swatches`` of the fill, -1 outside.
         palette: the flat colours of the fill.
+        bodies: its parts, bottom first, if it was drawn on several layers that are bodies of
+            their own. Then each of them has a surface, and this drawing has none.
     """
 
     pixels: NDArray[np.uint8]
@@ -43,6 +45,7 @@ class Drawing:
     albedo: NDArray[np.float32]
     labels: NDArray[np.int16]
     palette: Palette
+    bodies: tuple[Body, ...] = ()
 
     @property
     def size(self) -> tuple[int, int]:
@@ -51,10 +54,30 @@ class Drawing:
 
     @property
     def nbytes(self) -> int:
-        """Bytes of all layers."""
-        return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
+        """Bytes of all layers, and those of its bodies."""
+        own = sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
+        return own + sum(body.drawing.nbytes for body in self.bodies)
 
     def albedo_at(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> NDArray[np.float32]:
         """(V, 3) sRGB in 0..1 of V pixels."""
         found: NDArray[np.float32] = self.albedo[row, column]
         return found
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A part of a drawing that lies on a layer of its own, with what is drawn on it.
+
+    Attributes:
+        name: the artist's name of its lowest layer.
+        left, top: corner of ``drawing`` in the whole drawing.
+        drawing: the part alone, also where other bodies cover it.
+        rim: (h, w) bool, further pixels of the whole that its surface covers: blends along edges
+            that are in no body's mask.
+    """
+
+    name: str
+    left: int
+    top: int
+    drawing: Drawing
+    rim: NDArray[np.bool_]

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from .decompose import decompose_drawing
+from ..scene import LayerBody
+from ..shot import Cel, CelLayer, cropped_layer
+from .bodies import decompose_cel
 from .drawing import Drawing
+from .shrink import shrunk
 
 Bytes = NDArray[np.uint8]
 
@@ -22,26 +26,26 @@ class DrawingPlanes:
         pixels: (H, W, 4) uint8, sRGB, straight alpha.
         mask: (H, W) uint8, 255 inside the character; None: found in the pixels.
         ink: (H, W) uint8, 255 where there is ink; None: found in the pixels.
+        layers: the layers of the pixels, bottom first, if they are known.
     """
 
     pixels: Bytes
     mask: Bytes | None = None
     ink: Bytes | None = None
+    layers: tuple[CelLayer, ...] = ()
 
     @property
     def nbytes(self) -> int:
         """Bytes of all planes."""
-        return sum(
-            plane.nbytes for plane in (self.pixels, self.mask, self.ink) if plane is not None
-        )
+        planes = [self.pixels, self.mask, self.ink, *(layer.pixels for layer in self.layers)]
+        return sum(plane.nbytes for plane in planes if plane is not None)
 
-    def decompose(self) -> Drawing:
-        """The drawing in these planes.
+    def decompose(self, choices: Iterable[LayerBody] = ()) -> Drawing:
+        """The drawing in these planes, with its bodies; see ``decompose_cel``.
 
         Raises, Warns: as ``decompose_drawing``.
         """
-        mask, ink = self.pictures
-        return decompose_drawing(self.pixels, mask=mask, ink=ink)
+        return decompose_cel(Cel(self.pixels, *self.pictures, self.layers), choices)
 
     @property
     def pictures(self) -> tuple[Bytes | None, Bytes | None]:
@@ -55,12 +59,17 @@ class DrawingPlanes:
         """The same planes with blocks of ``step`` pixels averaged, colours by their alpha."""
         if step == 1:
             return self
-        pixels = Image.fromarray(self.pixels).convert("RGBa").reduce(step).convert("RGBA")
         mask, ink = (
             None if plane is None else np.asarray(Image.fromarray(plane).reduce(step))
             for plane in (self.mask, self.ink)
         )
-        return DrawingPlanes(np.asarray(pixels), mask, ink)
+        size = self.pixels.shape[1], self.pixels.shape[0]
+        layers = (
+            cropped_layer(layer.name, shrunk(layer.placed(size), step), line=layer.line)
+            for layer in self.layers
+        )
+        kept = tuple(layer for layer in layers if layer is not None)
+        return DrawingPlanes(shrunk(self.pixels, step), mask, ink, kept)
 
 
 def _grey(plane: Bytes) -> Bytes:

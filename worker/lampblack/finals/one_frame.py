@@ -34,7 +34,9 @@ def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     if not resolved.frames:
         raise LampblackError("There is no such frame.", "See which ones the input has.")
     frame = resolved.frames[0]
-    neighbour_loader = NeighbourLoader(resolved.shot, pipeline, resolved.reach)
+    neighbour_loader = NeighbourLoader(
+        resolved.shot, pipeline, resolved.reach, choices=resolved.overrides.layer_bodies
+    )
     drawing = neighbour_loader.drawing(frame)
     canvas = resolved.shot.canvas or Canvas(*drawing.size)
     scene = scene_at(resolved.overrides.scene(canvas), frame.number or 1)

@@ -97,6 +97,7 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
         settings.floor,
         settings.quality,
         None if hints is None else read_depth_hints(Path(hints)),
+        settings.bodies,
     )
     return ResolvedShot(shot, frames, overrides, sources, single, REACH if settings.steady else 0)
 

@@ -16,7 +16,8 @@ from ..drawing import Drawing
 from ..materials import MaterialTable
 from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
-from ..render import QUALITIES, RenderChild, frame_request, vertex_pixels
+from ..prepared import PreparedDrawing
+from ..render import QUALITIES, RenderChild, frame_request
 from ..scene import Scene
 from ..surface import Relief
 
@@ -43,35 +44,48 @@ def save_scene(
     surface = prepared.surface(scene, QUALITIES[scene.quality].mesh_stride)
     relief = surface.relief
     if path.suffix.lower() == ".glb":
-        _save_glb(drawing, relief, scene, path)
+        _save_glb(prepared, relief, scene, path)
         return
     request = frame_request(drawing.size, surface, scene)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
-    materials = MaterialTable.of(scene, drawing.palette.colours)
-    worn = drawing.labels[vertex_pixels(drawing.labels, relief.vertices)]
+    materials = MaterialTable.of(scene, prepared.palette.colours)
+    _, worn = prepared.paint_at(relief)
     diffuse = materials.diffuse[worn].astype(np.float32)
     unlit = (~(materials.diffuse | materials.glossy))[worn].astype(np.float32)
     with atomic_path(path) as temporary, RenderChild() as child:
         child.save_blend(request, scene.ambient, ink, diffuse, unlit, temporary.resolve())
 
 
-def _save_glb(drawing: Drawing, relief: Relief, scene: Scene, path: Path) -> None:
-    width, height = drawing.size
-    places = relief.vertices[:, :2] / [width, height]
-    material = PBRMaterial(  # type: ignore[no-untyped-call]
-        name="drawing",
-        baseColorTexture=Image.fromarray(_flat(drawing)),
-        metallicFactor=0.0,
-        roughnessFactor=GLOSSY if scene.default_material.glossy else MATT,
-    )
-    texture = TextureVisuals(  # type: ignore[no-untyped-call]
-        uv=np.column_stack([places[:, 0], 1 - places[:, 1]]), material=material
-    )
+def _save_glb(prepared: PreparedDrawing, relief: Relief, scene: Scene, path: Path) -> None:
+    """A mesh for each body, with its own drawing as its texture."""
+    width, height = prepared.size
     centre = np.array([width / 2, height / 2, 0], np.float32)
-    vertices = (relief.vertices - centre) * [1, -1, 1] / scene.canvas.default_height
-    mesh = trimesh.Trimesh(vertices, relief.faces, visual=texture, process=False)
+    meshes = trimesh.Scene()
+    parts = [("drawing", prepared.layers, np.zeros(3, np.float32))]
+    if relief.bodies is not None:
+        parts = [(body.name, body.drawing.layers, body.corner) for body in prepared.bodies]
+    for index, (name, drawing, corner) in enumerate(parts):
+        assert isinstance(drawing, Drawing)
+        vertices, faces = relief.vertices, relief.faces
+        if relief.bodies is not None:
+            own = relief.bodies == index
+            number = np.cumsum(own) - 1
+            vertices, faces = vertices[own], number[faces[own[faces[:, 0]]]]
+        places = (vertices - corner)[:, :2] / drawing.size
+        material = PBRMaterial(  # type: ignore[no-untyped-call]
+            name=name,
+            baseColorTexture=Image.fromarray(_flat(drawing)),
+            metallicFactor=0.0,
+            roughnessFactor=GLOSSY if scene.default_material.glossy else MATT,
+        )
+        texture = TextureVisuals(  # type: ignore[no-untyped-call]
+            uv=np.column_stack([places[:, 0], 1 - places[:, 1]]), material=material
+        )
+        placed = (vertices - centre) * [1, -1, 1] / scene.canvas.default_height
+        mesh = trimesh.Trimesh(placed, faces, visual=texture, process=False)
+        meshes.add_geometry(mesh, geom_name=f"{name}_{index}" if index else name)
     with atomic_file(path) as file:
-        file.write(bytes(mesh.export(file_type="glb")))  # type: ignore[arg-type]
+        file.write(bytes(meshes.export(file_type="glb")))  # type: ignore[no-untyped-call]
 
 
 def _flat(drawing: Drawing) -> NDArray[np.uint8]:

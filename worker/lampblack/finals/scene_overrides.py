@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ..choices import QualityName
+from ..choices import BodyChoice, QualityName
 from ..errors import SceneError
 from ..scene import (
     MAX_LIGHTS,
@@ -14,6 +14,7 @@ from ..scene import (
     Canvas,
     Depth,
     Floor,
+    LayerBody,
     Scene,
     decode_depth,
     decode_scene,
@@ -31,6 +32,7 @@ class SceneOverrides:
         lights: ``X,Y,Z`` each, in place of the scene's lights.
         floor: canvas line of a floor. quality: a preset.
         depth: what the artist says of the depth.
+        bodies: the surface of layers by name, in place of those in the scene.
     """
 
     file: Scene | None = None
@@ -38,6 +40,7 @@ class SceneOverrides:
     floor: float | None = None
     quality: QualityName | None = None
     depth: Depth | None = None
+    bodies: Mapping[str, BodyChoice] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         lights_at(self.lights, Canvas(1, 1))  # mistakes are reported before any work
@@ -53,7 +56,16 @@ class SceneOverrides:
             scene = replace(scene, floor=floor_at(self.floor))
         if self.depth is not None:
             scene = replace(scene, depth=self.depth)
+        if self.bodies:
+            kept = [body for body in scene.depth.layers if body.layer not in self.bodies]
+            named = [LayerBody(layer, body) for layer, body in self.bodies.items()]
+            scene = replace(scene, depth=replace(scene.depth, layers=(*kept, *named)))
         return scene if self.quality is None else replace(scene, quality=self.quality)
+
+    @property
+    def layer_bodies(self) -> tuple[LayerBody, ...]:
+        """The artist's choices of the surfaces of layers, the same for all drawings."""
+        return self.scene(Canvas(1, 1)).depth.layers
 
 
 def read_scene(path: Path) -> Scene:

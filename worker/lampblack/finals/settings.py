@@ -6,7 +6,15 @@ from pathlib import Path
 
 import msgspec
 
-from ..choices import DEFAULT_GRIDS, FileFormat, FrameLayers, LayerRole, QualityName, SolverName
+from ..choices import (
+    DEFAULT_GRIDS,
+    BodyChoice,
+    FileFormat,
+    FrameLayers,
+    LayerRole,
+    QualityName,
+    SolverName,
+)
 
 
 class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
@@ -26,6 +34,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         grids: see ``PipelineOptions``.
         solver: method of inflation.
         roles: roles of a project's layers by name, in place of those in the scene.
+        bodies: surfaces of layers by name, in place of those in the scene.
         camera: camera layer of a project; None is the first camera.
         layers: layers of a project that the frames show: all, or only the lit ones.
         steady: whether normals pass the temporal filter.
@@ -46,6 +55,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     grids: int = DEFAULT_GRIDS
     solver: SolverName = "direct"
     roles: dict[str, LayerRole] = {}
+    bodies: dict[str, BodyChoice] = {}
     camera: str | None = None
     layers: FrameLayers = "all"
     steady: bool = True
@@ -69,7 +79,9 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
             value = getattr(self, name)
             option = {"lights": "--light"}.get(name, f"--{name.replace('_', '-')}")
             # One word each, so that a value may begin with a dash.
-            if isinstance(value, dict):
+            if name == "bodies":
+                words += [f"--layer-body={layer}={body}" for layer, body in value.items()]
+            elif isinstance(value, dict):
                 words += [f"--{role}={layer}" for layer, role in value.items()]
             elif isinstance(value, tuple):
                 words += [f"{option}={one}" for one in value]

@@ -103,7 +103,9 @@ class _Planner:
         self._job = job
         self._pipeline = pipeline
         self._check = check
-        self._neighbours = NeighbourLoader(job.shot, pipeline, job.reach, check)
+        self._neighbours = NeighbourLoader(
+            job.shot, pipeline, job.reach, check, job.overrides.layer_bodies
+        )
         self._made_by = digest(__version__, job.options, _weights())
         self._canvas: Canvas | None = None
 

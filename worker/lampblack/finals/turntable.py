@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from ..composite import composite
 from ..drawing import Drawing
 from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
+from ..prepared import PreparedDrawing
 from ..render import LightPasses, Passes, frame_request
 from ..scene import Material, Scene
 from ..surface import Relief, visible_faces
@@ -77,7 +79,7 @@ def turn_table(
             vertices = _turned(relief.vertices, middle, angle) * np.float32(scale)
             vertices[:, :2] += np.array([columns, rows], np.float32) / 2
             turned = Relief(vertices, relief.faces)
-            view = _seen(drawing, relief, turned, (rows, columns))
+            view = _seen(prepared, relief, turned, (rows, columns))
             request = frame_request(view.size, replace(surface, relief=turned), placed)
             made[angle] = _picture(view, pipeline.renderer.render(request), placed)
         yield made[angle]
@@ -99,33 +101,49 @@ def _turned(vertices: Floats, middle: Floats, degrees: float) -> Floats:
     return turned
 
 
-def _seen(drawing: Drawing, relief: Relief, turned: Relief, size: tuple[int, int]) -> Drawing:
+def _seen(
+    prepared: PreparedDrawing, relief: Relief, turned: Relief, size: tuple[int, int]
+) -> Drawing:
     """The drawing projected onto the turned relief: every pixel, (rows, columns), shows the
-    drawing's pixel at the point where its ray meets the surface."""
+    pixel of its body's drawing at the point where its ray meets the surface."""
     hit = visible_faces(turned.vertices, turned.faces, size)
     mask = hit.face >= 0
     u, v = hit.u[mask, None], hit.v[mask, None]
-    corners = relief.vertices[relief.faces[hit.face[mask]], :2]
+    faces = relief.faces[hit.face[mask]]
+    corners = relief.vertices[faces, :2]
     x, y = ((1 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]).T - 0.5
-
-    def looked_up(layer: Floats) -> Floats:
-        planes = layer.reshape(*layer.shape[:2], -1)
-        seen = np.zeros((*size, planes.shape[2]), np.float32)
-        for index in range(planes.shape[2]):
-            plane = planes[..., index]
-            seen[mask, index] = ndimage.map_coordinates(plane, [y, x], order=1, mode="nearest")
-        return seen.reshape(*size, *layer.shape[2:])
-
-    ink, albedo = looked_up(drawing.ink), looked_up(drawing.albedo)
-    ink_colour = looked_up(drawing.ink_colour)
+    body = np.zeros(len(faces), np.int16) if relief.bodies is None else relief.bodies[faces[:, 0]]
+    ink = np.zeros(size, np.float32)
+    albedo, ink_colour = (np.zeros((*size, 3), np.float32) for _ in range(2))
     labels = np.full(size, -1, np.int16)
-    row = np.clip(np.rint(y).astype(np.intp), 0, drawing.mask.shape[0] - 1)
-    column = np.clip(np.rint(x).astype(np.intp), 0, drawing.mask.shape[1] - 1)
-    labels[mask] = drawing.labels[row, column]
-    drawn = albedo + ink[..., None] * (ink_colour - albedo)
-    pixels = np.dstack([drawn, mask.astype(np.float32)]) * 255
+    parts = [(b.drawing.layers, b.left, b.top) for b in prepared.bodies]
+    first = 0
+    for index, (drawn, left, top) in enumerate(parts or [(prepared.layers, 0, 0)]):
+        assert isinstance(drawn, Drawing)
+        mine = np.zeros(size, bool)
+        mine[mask] = body == index
+        place = y[body == index] - top, x[body == index] - left
+        for seen, layer in (
+            (ink, drawn.ink),
+            (albedo, drawn.albedo),
+            (ink_colour, drawn.ink_colour),
+        ):
+            seen[mine] = _looked_up(layer, *place)
+        row, column = (
+            np.clip(np.rint(at).astype(np.intp), 0, side - 1)
+            for at, side in zip(place, drawn.mask.shape, strict=True)
+        )
+        found = drawn.labels[row, column]
+        labels[mine] = np.where(found >= 0, found + np.int16(first), found)
+        first += len(drawn.palette.swatches)
+    colour = albedo + ink[..., None] * (ink_colour - albedo)
+    pixels = np.dstack([colour, mask.astype(np.float32)]) * 255
+    whole = prepared.layers
+    assert isinstance(whole, Drawing)
     return replace(
-        drawing,
+        whole,
+        palette=prepared.palette,
+        bodies=(),
         pixels=np.rint(pixels).astype(np.uint8),
         mask=mask,
         coverage=mask.astype(np.float32),
@@ -135,6 +153,17 @@ def _seen(drawing: Drawing, relief: Relief, turned: Relief, size: tuple[int, int
         albedo=albedo,
         labels=labels,
     )
+
+
+def _looked_up(layer: Floats, y: NDArray[np.floating[Any]], x: NDArray[np.floating[Any]]) -> Floats:
+    """(N, ...) the layer, (H, W, ...), at N places, bilinear."""
+    planes = layer.reshape(*layer.shape[:2], -1)
+    seen = np.empty((len(x), planes.shape[2]), np.float32)
+    for index in range(planes.shape[2]):
+        seen[:, index] = ndimage.map_coordinates(
+            planes[..., index], [y, x], order=1, mode="nearest"
+        )
+    return seen.reshape(len(x), *layer.shape[2:])
 
 
 def _picture(view: Drawing, passes: Passes, scene: Scene) -> Picture:

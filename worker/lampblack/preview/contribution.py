@@ -129,4 +129,4 @@ def character_area(drawing: PreparedDrawing, crop: Box) -> Box:
 
 
 def _materials(scene: Scene, drawing: PreparedDrawing) -> MaterialTable:
-    return MaterialTable.of(scene, drawing.layers.palette.colours)
+    return MaterialTable.of(scene, drawing.palette.colours)

@@ -15,12 +15,13 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cache import digest
 from ..camera import Affine, look_through, scene_in_view
 from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import ProjectError
 from ..scene import Canvas, Scene
-from ..shot import Cel, ShotFrame
+from ..shot import MAX_LAYERS, Cel, CelLayer, ShotFrame, cropped_layer
 from .archive import Archive
 from .document import Camera, Project
 from .paint import LayerPainter, Picture
@@ -68,10 +69,11 @@ class ProjectShot:
         stack, paint = self._stack, self._painter
         around = [paint.fingerprint(layers, number) for layers in (stack.below, stack.above)]
         lit = [paint.fingerprint(layers, number) for layers in (stack.lit, stack.line)]
+        named = [layer.name for layer in stack.lit if layer.key_at(number) is not None]
         return ShotFrame(
             number,
             f"{stem}.{number:04d}.png",
-            " ".join(lit),
+            digest(*lit, *named) if len(named) > 1 else " ".join(lit),
             f"{around} {self._through(number)} {self.canvas}",
         )
 
@@ -79,7 +81,26 @@ class ProjectShot:
         number = _number(frame)
         pixels = self._painter.paint(self._stack.lit, number)
         line = self._painter.paint(self._stack.line, number) if self._stack.line else None
-        return Cel(pixels, ink=line if line is not None and line[..., 3].any() else None)
+        ink = line if line is not None and line[..., 3].any() else None
+        return Cel(pixels, ink=ink, layers=self._layers(number))
+
+    def _layers(self, number: int) -> tuple[CelLayer, ...]:
+        """The lit layers apart. Of very many, the lowest are painted together."""
+        shown = [layer for layer in self._stack.lit if layer.key_at(number) is not None]
+        if len(shown) < 2:
+            return ()
+        low = max(1, len(shown) - MAX_LAYERS + 1)
+        groups = [shown[:low], *([layer] for layer in shown[low:])]
+        found = (
+            cropped_layer(
+                group[0].name,
+                self._painter.paint(group, number),
+                line=all(layer in self._stack.line for layer in group),
+            )
+            for group in groups
+        )
+        layers = tuple(layer for layer in found if layer is not None)
+        return layers if len(layers) > 1 else ()
 
     def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
         scene = replace(scene, canvas=self.canvas)

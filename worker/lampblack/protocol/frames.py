@@ -8,11 +8,9 @@ import msgspec
 from msgspec import Meta
 
 from ..choices import FrontSide
+from ..shot import MAX_LAYERS
 from .fields import Colour, Count, Digest, FrameNumber, Message, Request
 from .planes import Plane
-
-MAX_LAYERS = 16
-"""Layers of a drawing that a client sends apart."""
 
 LayerName = Annotated[str, Meta(pattern=r"^[^\x00-\x1f\x7f]*$(?!\n)", max_length=200)]
 Coefficient = Annotated[float, Meta(ge=-1e6, le=1e6)]

@@ -27,6 +27,7 @@ from ..protocol import (
     error_message,
 )
 from ..protocol.fields import Message
+from ..shot import cropped_layer
 from .jobs import Job
 from .service import Service
 from .session import FrameContent, Question, Session
@@ -73,7 +74,11 @@ def _put_frame(service: Service, session: Session, message: PutFrame, received: 
         return
     if planes := received.planes:
         session.asked.discard(message.digest)
-        given = DrawingPlanes(planes["pixels"], planes.get("mask"), planes.get("ink"))
+        named = zip(message.layers, received.layers, strict=True)
+        layers = filter(None, (cropped_layer(name, pixels) for name, pixels in named))
+        given = DrawingPlanes(
+            planes["pixels"], planes.get("mask"), planes.get("ink"), tuple(layers)
+        )
         service.preview.state.put_planes(message.digest, given)
     session.put_frame(message.frame, FrameContent(message.digest, message.camera))
     service.planner.changed()

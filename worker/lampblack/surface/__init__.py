@@ -5,13 +5,16 @@ from .export import save_mesh
 from .guided import guided_filter
 from .inflate_overlaps import dividing_lines, solve_with_overlaps
 from .overlap import Overlap
-from .relief import Relief, build_relief, check_relief
+from .relief import Relief, build_relief, check_relief, joined_reliefs
 from .solver import Solver, solve
+from .stacking import Base, Sheet, stack
 from .visible import visible_faces
 
 __all__ = [
+    "Base",
     "Overlap",
     "Relief",
+    "Sheet",
     "Solver",
     "build_relief",
     "check_relief",
@@ -19,8 +22,10 @@ __all__ = [
     "dividing_lines",
     "full_size",
     "guided_filter",
+    "joined_reliefs",
     "save_mesh",
     "solve",
     "solve_with_overlaps",
+    "stack",
     "visible_faces",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,10 +30,12 @@ class Relief:
         vertices: (V, 3) float32.
         faces: (F, 3) int32, counter-clockwise seen from outside in the right-handed frame
             (x, -y, z), so that the normals of the front point at the viewer.
+        bodies: (V,) int16, the body of each vertex, bottom first; None if there is only one.
     """
 
     vertices: NDArray[np.float32]
     faces: NDArray[np.int32]
+    bodies: NDArray[np.int16] | None = None
 
 
 def build_relief(
@@ -71,7 +74,9 @@ def build_relief(
         return _closed(nodes)
     seen = _closed(nodes, beneath.back)
     hidden = _hidden(beneath, mask, stride)
-    return seen if hidden is None else _joined(seen, hidden)
+    if hidden is None:
+        return seen
+    return replace(joined_reliefs([seen, hidden]), bodies=None)
 
 
 def _hidden(beneath: Beneath, mask: NDArray[np.bool_], stride: int) -> Relief | None:
@@ -120,16 +125,22 @@ def _closed(nodes: Nodes, own_back: NDArray[np.float32] | None = None) -> Relief
     return Relief(np.concatenate([front, back]), faces.astype(np.int32, copy=False))
 
 
-def _joined(first: Relief, second: Relief) -> Relief:
-    """Both meshes as one; the first half of the vertices is still the front."""
-    halves = [len(each.vertices) // 2 for each in (first, second)]
-    parts = [each.vertices[:half] for each, half in zip((first, second), halves, strict=True)]
-    parts += [each.vertices[half:] for each, half in zip((first, second), halves, strict=True)]
-    faces = [
-        first.faces + np.int32(halves[1]) * (first.faces >= halves[0]),
-        second.faces + np.int32(halves[0]) + np.int32(halves[0]) * (second.faces >= halves[1]),
-    ]
-    return Relief(np.concatenate(parts), np.concatenate(faces).astype(np.int32, copy=False))
+def joined_reliefs(reliefs: Sequence[Relief]) -> Relief:
+    """The reliefs of several bodies as one, bottom first; they stay closed meshes of their own."""
+    halves = [len(relief.vertices) // 2 for relief in reliefs]
+    fronts = [relief.vertices[:half] for relief, half in zip(reliefs, halves, strict=True)]
+    backs = [relief.vertices[half:] for relief, half in zip(reliefs, halves, strict=True)]
+    body = np.repeat(np.arange(len(reliefs), dtype=np.int16), halves)
+    faces, start, total = [], 0, sum(halves)
+    for relief, half in zip(reliefs, halves, strict=True):
+        behind = relief.faces >= half
+        faces.append(relief.faces + np.int32(start) + behind * np.int32(total - half))
+        start += half
+    return Relief(
+        np.concatenate([*fronts, *backs]),
+        np.concatenate(faces).astype(np.int32, copy=False),
+        np.concatenate([body, body]),
+    )
 
 
 def check_relief(relief: Relief) -> list[str]:

@@ -35,10 +35,17 @@ class Neighbours:
 
 @dataclass(frozen=True)
 class LazyNeighbours:
-    """Neighbours that are loaded only when they are needed. ``keys`` name their contents."""
+    """Neighbours that are loaded only when they are needed. ``keys`` name their contents.
+    ``of_body`` finds the neighbours of a body of the drawing, by its layer's name."""
 
     keys: NeighbourKeys
     load: Callable[[], Neighbours]
+    of_body: Callable[[str], LazyNeighbours | None] = lambda name: None
+
+
+def body_neighbours(neighbours: LazyNeighbours | None, name: str) -> LazyNeighbours | None:
+    """The neighbours of a body of a drawing with ``neighbours``; None if it has none."""
+    return None if neighbours is None else neighbours.of_body(name)
 
 
 NO_NEIGHBOURS = Neighbours()
