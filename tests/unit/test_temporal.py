@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from lampblack.normals.prediction import Prediction
 from lampblack.normals.temporal.flow import dense_flow
 from lampblack.normals.temporal.neighbours import neighbour_keys
 from lampblack.normals.temporal.registration import places_in, rigid_registration
@@ -232,3 +233,35 @@ def test_flicker_of_fewer_than_two_drawings_is_unknown() -> None:
     meter = FlickerMeter(TemporalFilter())
     meter.add(shot(0.0, 1)[0][2])
     assert np.isnan([meter.flicker.rigid, meter.flicker.local, meter.flicker.jitter]).all()
+
+
+def test_depth_and_edges_are_averaged_and_constants_of_depth_are_not() -> None:
+    """They move with the character. Each drawing's depth has an error of its own besides."""
+    truth, drawings = [], []
+    for index in range(5):
+        lines, mask = character(0, (0.0, 4.0 * index))
+        rows, columns = np.indices(mask.shape)
+        depth = np.where(rows > 100 + 0 * columns, 20.0, 0.0) * mask
+        error = 6.0 if index % 2 else -4.0  # on the upper half alone, of mean 0
+        noisy = (depth + np.where(rows < 80, error, 0) + 30 * (index - 2)) * mask
+        edge = np.where(index == 2, 0.2, 0.7) * mask
+        normals = bowl(mask)
+        order = np.dstack([noisy, edge]).astype(np.float32)
+        colour = np.ones((*mask.shape, 3), np.float32)
+        mini = make_thumbnail(str(index), lines, mask > 0, colour, normals, order)
+        seen = Prediction(normals, noisy.astype(np.float32), edge.astype(np.float32))
+        truth.append(depth)
+        drawings.append((seen, mask > 0, mini))
+    seen, mask, here = drawings[2]
+    around = neighbours_of([mini for _, _, mini in drawings], 2)
+    found = TemporalFilter().smooth_prediction(seen, mask, here, around)
+    assert found.depth is not None
+    assert found.edge is not None
+    rows, inner = np.indices(mask.shape)[0], ndimage.binary_erosion(mask, iterations=6)
+    upper, lower = inner & (rows < 72), inner & (rows > 110)
+    raw = seen.depth[upper].mean() - seen.depth[lower].mean()  # type: ignore[index]
+    step = found.depth[upper].mean() - found.depth[lower].mean()
+    assert abs(step + 20) < 0.5 * abs(raw + 20)
+    assert 0.4 < found.edge[inner].mean() < 0.65
+    assert not found.depth[~mask].any()
+    assert np.array_equal(found.normals, TemporalFilter().smooth(seen.normals, mask, here, around))

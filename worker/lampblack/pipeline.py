@@ -177,18 +177,17 @@ class Pipeline:
         order = self._cache.get(
             digest_of("order", *made_from), lambda: pack_order(predict(), drawing.mask)
         )
-        if neighbours is not None:
-            here = self._thumbnail(drawing, normals)
-            normals = self._temporal_filter.smooth(normals, drawing.mask, here, neighbours.load())
-        return unpack_order(normals, order, drawing.mask)
+        prediction = unpack_order(normals, order, drawing.mask)
+        if neighbours is None:
+            return prediction
+        here = _thumbnail(drawing, prediction)
+        return self._temporal_filter.smooth_prediction(
+            prediction, drawing.mask, here, neighbours.load()
+        )
 
     def thumbnail(self, drawing: Drawing) -> RegistrationThumbnail:
         """The drawing's registration thumbnail, about 4 MB."""
-        return self._thumbnail(drawing, self.normals(drawing))
-
-    def _thumbnail(self, drawing: Drawing, normals: NDArray[np.float32]) -> RegistrationThumbnail:
-        name = digest_of(drawing.lines, drawing.mask, drawing.albedo, normals)
-        return make_thumbnail(name, drawing.lines, drawing.mask, drawing.albedo, normals)
+        return _thumbnail(drawing, self._predicted(drawing))
 
     def height(
         self,
@@ -404,6 +403,13 @@ class Pipeline:
 def surface_step(drawing: Drawing) -> int:
     """Canvas pixels per pixel of the surface: 1 up to ``MAX_SURFACE_PX``."""
     return -(-max(drawing.size) // MAX_SURFACE_PX)
+
+
+def _thumbnail(drawing: Drawing, prediction: Prediction) -> RegistrationThumbnail:
+    normals, depth, edge = prediction.normals, prediction.depth, prediction.edge
+    order = None if depth is None or edge is None else np.dstack([depth, edge])
+    name = digest_of(drawing.lines, drawing.mask, drawing.albedo, normals)
+    return make_thumbnail(name, drawing.lines, drawing.mask, drawing.albedo, normals, order)
 
 
 def _shrink(

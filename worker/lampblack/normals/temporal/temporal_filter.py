@@ -1,4 +1,4 @@
-"""The temporal filter: averages the predicted normals of neighbouring drawings.
+"""The temporal filter: averages the predictions of neighbouring drawings.
 
 Where two drawings show the same thing, their predictions differ only by the network's error, and
 the mean of several flickers less than each. The neighbours are registered with the drawing
@@ -16,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..prediction import Prediction
 from .neighbours import REACH, NeighbourKeys
 from .registration import Registration, places_in, registration
 from .sample import sampled
@@ -78,25 +79,53 @@ class TemporalFilter:
             (H, W, 3) float32, x right, y up, z to the viewer; unit in the mask, 0 outside.
             Detail finer than the fine grid stays that of the drawing.
         """
-        correction, place = here.window.to_canvas(self.change(here, neighbours), mask.shape)
+        return self.smooth_prediction(Prediction(normals), mask, here, neighbours).normals
+
+    def smooth_prediction(
+        self,
+        prediction: Prediction,
+        mask: NDArray[np.bool_],
+        here: RegistrationThumbnail,
+        neighbours: Neighbours,
+    ) -> Prediction:
+        """Average one drawing's prediction with its neighbours': the normals as by ``smooth``, and
+        if all thumbnails have them, depth and edge."""
+        changed = self._change(here, neighbours)
+        correction, place = here.window.to_canvas(changed, mask.shape)
         inside = mask[place]
-        moved = normals[place][inside] + correction[inside]
+        moved = prediction.normals[place][inside] + correction[inside][:, :3]
         moved[:, 2] = np.maximum(moved[:, 2], 1e-3)  # what is seen cannot face away
-        smooth = normals.copy()
-        smooth[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
-        return smooth
+        normals = prediction.normals.copy()
+        normals[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
+        depth, edge = prediction.depth, prediction.edge
+        if depth is None or edge is None or len(changed) < 5:
+            return Prediction(normals, depth, edge)
+        depth, edge = depth.copy(), edge.copy()
+        depth[place][inside] += correction[inside][:, 3]
+        edge[place][inside] += correction[inside][:, 4]
+        return Prediction(normals, depth, edge)
 
     def change(self, here: RegistrationThumbnail, neighbours: Neighbours) -> Planes:
         """(3, h, w) float32: the mean minus ``here.vectors``, on the fine grid."""
-        summed = np.zeros_like(here.vectors)
+        return self._change(here, neighbours)[:3]
+
+    def _change(self, here: RegistrationThumbnail, neighbours: Neighbours) -> Planes:
+        """``change``, and if all have it that of ``order``: (5, h, w)."""
+        everyone = (here, *neighbours.before[:REACH], *neighbours.after[:REACH])
+        ordered = all(drawing.order is not None for drawing in everyone)
+        mine = _planes(here, ordered)
+        summed = np.zeros_like(mine)
         weights = np.ones(here.inside.shape, np.float32)
         for side in (neighbours.before[:REACH], neighbours.after[:REACH]):
             seen: Registration | None = None
             for near, far in pairwise([here, *side]):
                 step = self.registration(near, far)
                 seen = step if seen is None else seen.then(step)
-                vectors, trust = warped_normals(far, seen.fine())
-                summed += trust * (vectors - here.vectors)
+                planes, trust = _warped(far, seen.fine(), ordered)
+                change = planes - mine
+                # Depths are known but for a constant.
+                change[3:4] -= (trust * change[3:4]).sum() / max(float(trust.sum()), 1e-6)
+                summed += trust * change
                 weights += trust
         changed: Planes = summed / weights
         return changed
@@ -128,9 +157,22 @@ def warped_normals(
 ) -> tuple[Planes, NDArray[np.float32]]:
     """The other drawing's normals, warped by the registration ``seen`` and rotated back with it,
     (3, h, w) on the fine grid; and their trust, (h, w)."""
-    planes = sampled(np.concatenate([other.vectors, other.inside[None]]), seen.places)
+    return _warped(other, seen, False)
+
+
+def _warped(
+    other: RegistrationThumbnail, seen: Registration, ordered: bool
+) -> tuple[Planes, NDArray[np.float32]]:
+    """``warped_normals``, and if ``ordered`` the other's order below them: (5, h, w)."""
+    planes = sampled(np.concatenate([other.inside[None], _planes(other, ordered)]), seen.places)
     turn = seen.turn()
     cos, sin = np.cos(turn), np.sin(turn)
-    x, y, z, inside = planes
-    vectors = np.stack([cos * x + sin * y, cos * y - sin * x, z])
-    return vectors, seen.trust * (inside > 0.5)
+    inside, x, y, z, *order = planes
+    warped = np.stack([cos * x + sin * y, cos * y - sin * x, z, *order])
+    return warped, seen.trust * (inside > 0.5)
+
+
+def _planes(drawing: RegistrationThumbnail, ordered: bool) -> Planes:
+    if not ordered or drawing.order is None:
+        return drawing.vectors
+    return np.concatenate([drawing.vectors, drawing.order])

@@ -26,6 +26,8 @@ class RegistrationThumbnail:
         vectors: (3, 2h, 2w) float32, fine grid: predicted normals, x right, y up, z to the
             viewer.
         inside: (2h, 2w) float32, fine grid: share of the cell that the character covers.
+        order: (2, 2h, 2w) float32, fine grid: predicted depth in pixels of the drawing, and how
+            likely an occlusion is; None where they are not known.
     """
 
     name: str
@@ -34,6 +36,7 @@ class RegistrationThumbnail:
     centre: tuple[float, float]
     vectors: Planes
     inside: NDArray[np.float32]
+    order: Planes | None = None
 
 
 def make_thumbnail(
@@ -42,6 +45,7 @@ def make_thumbnail(
     mask: NDArray[np.bool_],
     albedo: NDArray[np.float32],
     normals: NDArray[np.float32],
+    order: NDArray[np.float32] | None = None,
 ) -> RegistrationThumbnail:
     """Make the thumbnail of a drawing.
 
@@ -50,21 +54,25 @@ def make_thumbnail(
         lines: (H, W) float32 ink in 0..1. mask: (H, W) bool, not empty.
         albedo: (H, W, 3) float32 sRGB in 0..1.
         normals: (H, W, 3) float32, unit in the mask, 0 outside.
+        order: (H, W, 2) float32 depth and edge, 0 outside the mask.
     """
     window = window_around(mask)
     inside = mask[..., None].astype(np.float32)
     seen = window.to_grid(
         np.dstack([inside, lines[..., None] * inside, albedo * inside]), window.coarse
     )
-    fine = window.to_grid(np.dstack([inside, normals * inside]), window.fine)
+    planes = [inside, normals * inside] + ([] if order is None else [order * inside])
+    fine = window.to_grid(np.dstack(planes), window.fine)
+    means = fine[1:] / np.maximum(fine[0], 1e-3)
     row, column = ndimage.center_of_mass(seen[0])
     return RegistrationThumbnail(
         name=name,
         window=window,
         features=_features(seen[0], seen[1], seen[2:]),
         centre=(float(row), float(column)),
-        vectors=fine[1:] / np.maximum(fine[0], 1e-3),
+        vectors=means[:3],
         inside=fine[0],
+        order=None if order is None else means[3:],
     )
 
 
