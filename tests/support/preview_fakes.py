@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict, deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,12 +41,14 @@ PAUSE = 0.2
 
 class FakeRenderer:
     """White light everywhere, of the brightness ``level``, and half of it on the floor where the
-    character stands. ``jobs`` are all it was asked to gather for previews; ``before`` sees each
-    first, and may raise. So does ``before_frame`` with the frames of finals."""
+    character stands. ``jobs`` are all it was asked to gather for previews, the last on ``surface``;
+    ``before`` sees each first, and may raise. So does ``before_frame`` with the frames of finals.
+    """
 
     def __init__(self) -> None:
         self.level = 1.0
         self.jobs: list[Accumulate] = []
+        self.surface: Surface | None = None
         self.before: Callable[[Accumulate], None] = lambda job: None
         self.before_frame: Callable[[RenderRequest], None] = lambda request: None
         self.starts = 0
@@ -61,6 +63,7 @@ class FakeRenderer:
     def accumulate(self, surface: Surface, job: Accumulate) -> tuple[Floats, ...]:
         self.before(job)
         self.jobs.append(job)
+        self.surface = surface
         width, height = job.size
         light = np.full((height, width, 3), self.level, np.float32)
         first = light if job.subject == "character" else light / 2
@@ -130,7 +133,7 @@ class Stage:
         self.service = Service(
             self.transport, self.renderer, previews, jobs, clock or (lambda: self.now)
         )
-        self._drawings: dict[str, NDArray[np.uint8]] = {}
+        self._drawings: dict[str, tuple[NDArray[np.uint8], Any]] = {}
         self._numbers: dict[bytes, int] = defaultdict(int)
 
     def handle(self, client: bytes, message: Message, **planes: NDArray[np.uint8]) -> None:
@@ -139,9 +142,15 @@ class Stage:
     def greet(self, client: bytes) -> None:
         self.handle(client, Hello(minor=MINOR, client="test", client_version="1"))
 
-    def announce(self, client: bytes, frame: int, picture: NDArray[np.uint8]) -> str:
-        digest = frame_digest({"pixels": picture})
-        self._drawings[digest] = picture
+    def announce(
+        self,
+        client: bytes,
+        frame: int,
+        picture: NDArray[np.uint8],
+        layers: Sequence[tuple[str, NDArray[np.uint8]]] = (),
+    ) -> str:
+        digest = frame_digest({"pixels": picture}, layers)
+        self._drawings[digest] = picture, layers
         self.handle(client, PutFrame(frame=frame, digest=digest))
         return digest
 
@@ -207,5 +216,8 @@ class Stage:
                 need = received.message
                 if isinstance(need, NeedFrame):
                     sent.remove(received)
-                    answer = PutFrame(frame=need.frame, digest=need.digest)
-                    self.handle(client, answer, pixels=self._drawings[need.digest])
+                    picture, layers = self._drawings[need.digest]
+                    names = tuple(name for name, _ in layers)
+                    answer = PutFrame(frame=need.frame, digest=need.digest, layers=names)
+                    pixels = tuple(pixels for _, pixels in layers)
+                    handle(self.service, client, Received(answer, {"pixels": picture}, pixels))

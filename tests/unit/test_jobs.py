@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,11 +17,12 @@ from lampblack.pipeline import Pipeline
 from lampblack.preview import PreviewState
 from lampblack.protocol import Cancel, Done, ErrorMessage, FrameDone, Render
 from lampblack.render import RenderRequest
-from lampblack.scene import default_scene
+from lampblack.scene import Depth, LayerBody, default_scene
 from lampblack.service.client import Client
 from lampblack.service.jobs import MAX_WAITING, Jobs
+from lampblack.surface import Relief
 from support.command_line import files
-from support.drawings import draw_ball
+from support.drawings import draw_ball, draw_capsule, layered_cel
 from support.preview_fakes import FakePredictor, FakeRenderer
 from support.served import Served
 
@@ -83,6 +85,28 @@ def test_a_job_writes_its_frames_and_says_so(client: Client, tmp_path: Path) -> 
     client.wait_for(Done)
     kept = [message.kept for message in client.seen if isinstance(message, FrameDone)]
     assert kept == [False] * FRAMES + [True] * FRAMES
+
+
+def test_a_job_lights_the_layers_apart_as_the_scene_says(
+    served: Served, client: Client, tmp_path: Path
+) -> None:
+    body = draw_capsule((SIZE, SIZE), (32, 32), (32, 32), 24, (200, 110, 60), line=2)
+    arm = draw_capsule((SIZE, SIZE), (20, 30), (58, 28), 6, line=2)
+    cel = layered_cel(body=body, arm=arm)
+    for number in range(1, FRAMES + 1):
+        client.announce(number, cel.pixels, [("body", body), ("arm", arm)])
+    reliefs: list[Relief] = []
+    served.job_renderer.before_frame = lambda request: reliefs.append(request.surface.relief)
+    for choice in ("auto", "below"):
+        chosen = Depth(layers=(LayerBody("arm", choice),))  # type: ignore[arg-type]
+        client.set_scene(replace(default_scene(SIZE, SIZE), depth=chosen))
+        render(client, tmp_path, keep_finished=True)
+        done, _ = client.wait_for(Done)
+        assert (done.outcome, done.frames_failed) == ("finished", 0)
+    apart, together = (relief.bodies for relief in reliefs)
+    assert apart is not None
+    assert set(apart.tolist()) == {0, 1}
+    assert together is None
 
 
 def test_a_cancelled_job_keeps_what_it_wrote(

@@ -24,7 +24,7 @@ from lampblack.protocol import Bye, Cancel
 from lampblack.render import Accumulate
 from lampblack.scene import Ambient, AreaLight, Floor, Scene, default_scene
 from lampblack.service.faults import error_code
-from support.drawings import draw_ball
+from support.drawings import draw_ball, draw_capsule, layered_cel
 from support.preview_fakes import Stage
 
 SIZE = 64
@@ -320,3 +320,19 @@ def test_threads_report_what_they_meet_and_live_on(running: Stage) -> None:
     running.renderer.before = fail
     serve(running.set_scene(ONE, scene(30)))
     assert running.errors(ONE) == ["render_restarted"]
+
+
+def test_layers_that_are_sent_apart_are_bodies(stage: Stage) -> None:
+    body = draw_capsule((SIZE, SIZE), (32, 32), (32, 32), 24, (200, 110, 60), line=2)
+    arm = draw_capsule((SIZE, SIZE), (20, 30), (58, 28), 6, line=2)
+    cel = layered_cel(body=body, arm=arm)
+    stage.announce(ONE, 1, cel.pixels, [("body", body), ("arm", arm)])
+    stage.set_scene(ONE, scene(20))
+    stage.look(ONE, 1, SIZE)
+    stage.settle()
+    assert stage.renderer.surface is not None
+    found = stage.renderer.surface.relief.bodies
+    assert found is not None
+    assert set(found.tolist()) == {0, 1}
+    assert stage.images(ONE)[-1].converged
+    assert stage.errors(ONE) == []

@@ -6,7 +6,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Self, TypeVar
@@ -41,6 +41,7 @@ from ..scene import Scene
 from .endpoint import read_connection
 
 Kind = TypeVar("Kind", bound=Message)
+NamedLayers = Sequence[tuple[str, Pixels]]
 
 
 class Client:
@@ -63,7 +64,7 @@ class Client:
         self.revision = 0
         self.request = 0
         self.seen: list[Message] = []
-        self._drawings: dict[str, dict[Role, Pixels]] = {}
+        self._drawings: dict[str, tuple[dict[Role, Pixels], NamedLayers]] = {}
         self._shown: dict[int, str] = {}
 
     def __enter__(self) -> Self:
@@ -78,9 +79,14 @@ class Client:
         self.socket.close(0)
         self._context.term()
 
-    def send(self, message: Message, planes: Mapping[Role, Pixels] | None = None) -> None:
+    def send(
+        self,
+        message: Message,
+        planes: Mapping[Role, Pixels] | None = None,
+        layers: Sequence[Pixels] = (),
+    ) -> None:
         """Send one message."""
-        self.socket.send_multipart(encode(message, planes))
+        self.socket.send_multipart(encode(message, planes, layers))
 
     def receive(self, seconds: float) -> Received | None:
         """The next message; None if none arrives in time. need_frame is answered."""
@@ -89,8 +95,10 @@ class Client:
         received = decode(self.socket.recv_multipart(), "worker")
         message = received.message
         if isinstance(message, NeedFrame) and self._shown.get(message.frame) == message.digest:
-            planes = self._drawings[message.digest]
-            self.send(PutFrame(frame=message.frame, digest=message.digest), planes)
+            planes, layers = self._drawings[message.digest]
+            names = tuple(name for name, _ in layers)
+            put = PutFrame(frame=message.frame, digest=message.digest, layers=names)
+            self.send(put, planes, [pixels for _, pixels in layers])
         if isinstance(message, Welcome):
             self.welcome = message
         self.seen.append(message)
@@ -118,12 +126,19 @@ class Client:
         self.send(Hello(minor=MINOR, client="lampblack", client_version=__version__))
         return self.wait_for(Welcome, seconds)[0]
 
-    def announce(self, frame: int, pixels: NDArray[np.uint8], **more: NDArray[np.uint8]) -> str:
-        """Announce that ``frame`` shows a drawing, (H, W, 4) uint8; planes are sent on request."""
+    def announce(
+        self,
+        frame: int,
+        pixels: NDArray[np.uint8],
+        layers: NamedLayers = (),
+        **more: NDArray[np.uint8],
+    ) -> str:
+        """Announce that ``frame`` shows a drawing, (H, W, 4) uint8; planes are sent on request.
+        ``layers`` are its layers, bottom first, each as large as the drawing."""
         planes: dict[Role, Pixels] = {"pixels": pixels}
         planes |= {role: more[role] for role in ("mask", "ink") if role in more}
-        digest = frame_digest(planes)
-        self._drawings[digest], self._shown[frame] = planes, digest
+        digest = frame_digest(planes, layers)
+        self._drawings[digest], self._shown[frame] = (planes, layers), digest
         self.send(PutFrame(frame=frame, digest=digest))
         return digest
 
