@@ -3,10 +3,7 @@
 #include "protocol/generated/limits.h"
 #include "protocol/planes.h"
 #include "worker/frame_list.h"
-
-#include <QRegularExpression>
-
-#include <cmath>
+#include "worker/sendable.h"
 
 namespace lampblack
 {
@@ -16,58 +13,6 @@ namespace
 
 constexpr int LastFrame = 999999;
 constexpr int MaxFrames = 100000;
-constexpr int MaxDevicePixels = 4096; // width or height of a preview
-constexpr int MaxListLength = 1024;
-
-bool isFinite(const QRectF& rect)
-{
-    return std::isfinite(rect.x()) && std::isfinite(rect.y()) && std::isfinite(rect.width()) &&
-           std::isfinite(rect.height());
-}
-
-/// `crop` within the limits of SPEC 6.
-QRectF bounded(const QRectF& crop)
-{
-    constexpr double Far = 100000;
-    return {qBound(-Far, crop.x(), Far), qBound(-Far, crop.y(), Far), qBound(0.01, crop.width(), Far),
-            qBound(0.01, crop.height(), Far)};
-}
-
-/// `size` shrunk to the allowed maximum, with the same proportions.
-QSize bounded(const QSize& size)
-{
-    const QSize most(MaxDevicePixels, MaxDevicePixels);
-    const bool fits = size.width() <= most.width() && size.height() <= most.height();
-    return (fits ? size : size.scaled(most, Qt::KeepAspectRatio)).expandedTo(QSize(1, 1));
-}
-
-/// `layers` as they may be sent of a drawing of this size: none if they are too many or too large.
-DrawnLayers sendable(DrawnLayers layers, const QSize& size)
-{
-    constexpr int MaxLayers = 16;
-    constexpr int MaxName = 128;
-    static const QRegularExpression control(QStringLiteral("[\\x00-\\x1f\\x7f]"));
-    const qint64 pixels = qint64(size.width()) * size.height() * (1 + layers.size());
-    if (layers.size() > MaxLayers || pixels > protocol::Limits().framePixels)
-    {
-        return {};
-    }
-    for (DrawnLayer& layer : layers)
-    {
-        layer.name = layer.name.left(MaxName).replace(control, QStringLiteral(" "));
-        if (layer.pixels.size() != size)
-        {
-            return {};
-        }
-    }
-    return layers;
-}
-
-bool isOutput(const QString& output)
-{
-    static const QRegularExpression pattern(QStringLiteral("\\A/[^%\\x00-\\x1f\\x7f]*%0[1-9]d\\.png\\z"));
-    return output.size() <= MaxListLength && pattern.match(output).hasMatch();
-}
 
 } // namespace
 

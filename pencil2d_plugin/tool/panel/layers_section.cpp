@@ -43,6 +43,7 @@ void LayersSection::refresh()
         mRows->deleteLater();
     }
     mRows = new QWidget(this);
+    mRows->setFont(font());
     auto* grid = new QGridLayout(mRows);
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setSpacing(3);
@@ -61,13 +62,13 @@ void LayersSection::refresh()
     {
         return roleOf(layer, roles) != QLatin1String("background");
     };
-    const bool hasSeveral = std::count_if(drawn.begin(), drawn.end(), isLit) > 1;
+    const auto lowest = std::find_if(drawn.rbegin(), drawn.rend(), isLit);
     int row = 0;
     for (const QString& layer : qAsConst(drawn))
     {
         grid->addWidget(nameLabel(layer), row, 0);
         grid->addWidget(roleChoice(layer, roleOf(layer, roles)), row++, 1);
-        if (hasSeveral && isLit(layer))
+        if (isLit(layer) && layer != *lowest) // below which there is nothing to stand on
             grid->addWidget(bodyChoice(layer), row++, 0, 1, 2);
     }
     body()->addWidget(mRows);
