@@ -155,12 +155,12 @@ class Stage:
         return digest
 
     def set_scene(self, client: bytes, scene: Scene) -> int:
-        revision = self._next(client)
+        revision = self.next_request(client)
         self.handle(client, SetScene(revision=revision, scene=scene))
         return revision
 
     def look(self, client: bytes, frame: int, size: int) -> int:
-        request = self._next(client)
+        request = self.next_request(client)
         crop = Crop(x=0, y=0, width=size, height=size)
         self.handle(
             client, Preview(request=request, frame=frame, crop=crop, width=size, height=size)
@@ -206,7 +206,7 @@ class Stage:
         sent = (received.message for received in self.transport.sent[client])
         return [message.code for message in sent if isinstance(message, ErrorMessage)]
 
-    def _next(self, client: bytes) -> int:
+    def next_request(self, client: bytes) -> int:
         self._numbers[client] += 1
         return self._numbers[client]
 

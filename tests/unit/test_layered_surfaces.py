@@ -178,7 +178,8 @@ def test_exported_bodies_are_meshes_in_their_own_colours(
     pipeline: Pipeline, tmp_path: Path
 ) -> None:
     drawing = decompose_cel(layered_cel(body=BODY, arm=ARM))
-    save_scene(pipeline, drawing, default_scene(*SIZE), tmp_path / "both.glb")
+    prepared = pipeline.prepare(drawing)
+    save_scene(drawing, prepared, default_scene(*SIZE), tmp_path / "both.glb")
     scene = trimesh.load(io.BytesIO((tmp_path / "both.glb").read_bytes()), "glb")
     assert len(scene.geometry) == 2
     for mesh, colour in zip(

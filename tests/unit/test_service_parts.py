@@ -19,6 +19,7 @@ from lampblack.preview import Viewport, ViewRequest
 from lampblack.preview.bounded import BoundedStore
 from lampblack.preview.contribution import LightContribution, preview_surface
 from lampblack.preview.light_store import AccumulatedLight, LightStore
+from lampblack.preview.shape import DrawingShape
 from lampblack.scene import Depth, DepthHint, DepthPoint, Floor, Material, Scene, default_scene
 from lampblack.service.outbox import MAX_WAITING, Outbox
 from lampblack.service.overlaps import overlaps_on_canvas
@@ -156,7 +157,8 @@ def test_a_change_invalidates_exactly_what_it_shapes(drawing: PreparedDrawing) -
     light = np.zeros((2, 2, 3), np.float32)
 
     def contributions(changed: Scene) -> tuple[LightContribution, ...]:
-        view = ViewRequest("", VIEWPORT, "ball", IDENTITY, 1, changed).resolve(drawing)
+        shape = DrawingShape("ball")
+        view = ViewRequest("", VIEWPORT, shape, IDENTITY, 1, changed).resolve(drawing)
         assert view is not None
         return view.contributions
 

@@ -44,12 +44,12 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
     if floor is not None:
         floor = replace(floor, y=d * scene.canvas.width / 2 + e * floor.y + f)
     lights = tuple(seen(light) for light in scene.lights)
-    depth = replace(scene.depth, hints=tuple(_hint_in_view(h, camera) for h in scene.depth.hints))
+    depth = replace(scene.depth, hints=tuple(hint_in_view(h, camera) for h in scene.depth.hints))
     return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth)
 
 
-def _hint_in_view(hint: DepthHint, camera: Affine) -> DepthHint:
-    """A mirroring camera also mirrors the sides of a stroke."""
+def hint_in_view(hint: DepthHint, camera: Affine) -> DepthHint:
+    """``hint`` seen through ``camera``; a mirroring camera also mirrors the sides of a stroke."""
     a, b, c, d, e, f = camera
     points = tuple(
         replace(p, x=a * p.x + b * p.y + c, y=d * p.x + e * p.y + f) for p in hint.points

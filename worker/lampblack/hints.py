@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .cache import digest as digest_of
-from .drawing import Drawing
+from .drawing import Body, Drawing
 from .normals.temporal.carry import carry_points
 from .normals.temporal.temporal_filter import TemporalFilter
 from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
@@ -17,6 +17,8 @@ from .scene import Depth, DepthHint, DepthPoint
 
 HINT_REACH = 48
 """Frames before and after its own for which a hint counts."""
+MOST_FRAMES = 8
+"""Frames whose hints count at one frame."""
 _SAME_PLACE = 0.03
 """Two hints are about one place if their middles are nearer than this share of the character's
 longer side; then the one that is nearer in time counts."""
@@ -30,10 +32,38 @@ class HintedDrawing:
     hints: tuple[DepthHint, ...]
 
 
+def scaled_hint(hint: DepthHint, scale: float, left: float = 0, top: float = 0) -> DepthHint:
+    """The hint in a picture that begins at (``left``, ``top``) and then is scaled."""
+    points = tuple(replace(p, x=(p.x - left) * scale, y=(p.y - top) * scale) for p in hint.points)
+    return replace(hint, points=points)
+
+
+def hints_by_body(
+    bodies: Sequence[Body], hints: Sequence[DepthHint]
+) -> list[tuple[DepthHint, ...]]:
+    """For each of ``bodies``, bottom first, its hints in its own pixels: those of whose points it
+    is the topmost body at the most."""
+    found: list[list[DepthHint]] = [[] for _ in bodies]
+    for hint in hints:
+        seen = [0] * len(bodies)
+        for point in hint.points:
+            for number in reversed(range(len(bodies))):
+                body = bodies[number]
+                row, column = int(point.y) - body.top, int(point.x) - body.left
+                height, width = body.drawing.mask.shape
+                if 0 <= row < height and 0 <= column < width and body.drawing.mask[row, column]:
+                    seen[number] += 1
+                    break
+        number = int(np.argmax(seen))
+        if seen[number]:
+            found[number].append(scaled_hint(hint, 1, bodies[number].left, bodies[number].top))
+    return [tuple(own) for own in found]
+
+
 def hint_frames(depth: Depth, frame: int) -> list[int]:
     """The frames whose hints count at ``frame``, the nearest first."""
     frames = {hint.frame for hint in depth.hints if abs(hint.frame - frame) <= HINT_REACH}
-    return sorted(frames, key=lambda hinted: (abs(hinted - frame), hinted))
+    return sorted(frames, key=lambda hinted: (abs(hinted - frame), hinted))[:MOST_FRAMES]
 
 
 def carry_hints(
@@ -48,14 +78,20 @@ def carry_hints(
         hinted: the nearest in time first.
         temporal_filter: caches registrations.
     """
-    there = _thumbnail(target)
-    reach = _SAME_PLACE * max(there.window.size)
+    hinted = tuple(hinted)
+    reach = _SAME_PLACE * max(target.mask.any(axis=1).sum(), target.mask.any(axis=0).sum())
+    there = None
     found: list[DepthHint] = []
     for source in hinted:
-        here = _thumbnail(source.drawing)
         nearer = [_middle(hint) for hint in found]
+        here = None
+        if source.drawing is not target:
+            there = there or _thumbnail(target)
+            here = _thumbnail(source.drawing)
         for hint in source.hints:
-            carried = _carried(hint, here, there, temporal_filter)
+            carried: DepthHint | None = hint
+            if here is not None and there is not None:
+                carried = _carried(hint, here, there, temporal_filter)
             if carried is None:
                 continue
             middle = _middle(carried)

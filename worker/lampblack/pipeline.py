@@ -5,7 +5,7 @@ The command line, the farm and the live worker all use it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import TracebackType
 from typing import Protocol, Self
@@ -21,6 +21,7 @@ from .choices import DEFAULT_GRIDS, PipelineOptions
 from .composite import composite
 from .drawing import Drawing, DrawingPlanes
 from .drawing.morphology import from_nearest
+from .hints import hints_by_body, scaled_hint
 from .normals.predict import NormalPredictor
 from .normals.prediction import Prediction, pack_order, unpack_order
 from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter, body_neighbours
@@ -28,7 +29,7 @@ from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from .prepared import PreparedDrawing, block_middles, character_box
 from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
 from .render.light_pass_cache import LightPassCache
-from .scene import Scene
+from .scene import DepthHint, LayerBody, Scene
 from .stacked import seen_height, seen_normals, seen_overlaps, stack_bodies
 from .surface import Overlap, dividing_lines, guided_filter, solve, solve_with_overlaps
 from .surface.overlap import pack_overlaps, unpack_overlaps
@@ -204,19 +205,23 @@ class Pipeline:
         drawing: Drawing,
         progress: Progress = lambda share: None,
         neighbours: LazyNeighbours | None = None,
+        hints: Sequence[DepthHint] = (),
     ) -> tuple[NDArray[np.float32], tuple[Overlap, ...]]:
-        """The height, as from ``height``, and the overlaps along which it steps."""
+        """The height, as from ``height``, and the overlaps along which it steps; ``hints`` are in
+        pixels of the drawing."""
         made: list[tuple[NDArray[np.float32], list[Overlap]]] = []
 
         def inflate() -> tuple[NDArray[np.float32], list[Overlap]]:
             if not made:
-                made.append(self._inflate(drawing, progress, neighbours))
+                made.append(self._inflate(drawing, progress, neighbours, hints))
             return made[0]
 
         made_from = [self._predictor.identity, self.options, drawing.lines, drawing.mask]
         made_from.append(drawing.ink)
         if neighbours is not None:
             made_from += [drawing.albedo, neighbours.keys]
+        if hints:
+            made_from.append(repr([(h.points, h.front, h.amount) for h in hints]))
         height = self._cache.get(digest_of("steps", *made_from), lambda: inflate()[0])
         packed = self._cache.get(
             digest_of("overlaps", *made_from), lambda: pack_overlaps(inflate()[1])
@@ -224,7 +229,11 @@ class Pipeline:
         return height, unpack_overlaps(packed)
 
     def _inflate(
-        self, drawing: Drawing, progress: Progress, neighbours: LazyNeighbours | None
+        self,
+        drawing: Drawing,
+        progress: Progress,
+        neighbours: LazyNeighbours | None,
+        hints: Sequence[DepthHint],
     ) -> tuple[NDArray[np.float32], list[Overlap]]:
         prediction, mask = self._predicted(drawing, progress, neighbours), drawing.mask
         lines = dividing_lines(drawing.lines, drawing.ink, mask)
@@ -232,7 +241,9 @@ class Pipeline:
         if step > 1:
             prediction, mask, lines = _shrink(prediction, mask, lines, step)
         if self.options.solver == "direct":
-            height, overlaps = solve_with_overlaps(prediction, mask, lines)
+            height, overlaps = solve_with_overlaps(
+                prediction, mask, lines, [scaled_hint(hint, 1 / step) for hint in hints]
+            )
         else:
             height, overlaps = solve(prediction.normals, mask, solver=self.options.solver), []
         height = guided_filter(height, mask) * np.float32(step)
@@ -246,6 +257,7 @@ class Pipeline:
         drawing: Drawing,
         neighbours: LazyNeighbours | None = None,
         *,
+        hints: Sequence[DepthHint] = (),
         digest: str = "",
         progress: Progress = lambda share: None,
         with_normals: bool = False,
@@ -254,13 +266,14 @@ class Pipeline:
 
         Args:
             neighbours: for the temporal filter of its normals.
+            hints: what the artist says of its depth, in pixels of the drawing.
             digest: identifies the drawing.
             progress: called with the share done, 0 to 1, of predicting normals.
             with_normals: keep them in the result.
         """
         if drawing.bodies:
-            return self._prepare_bodies(drawing, neighbours, digest, progress, with_normals)
-        height, overlaps = self.surface(drawing, progress, neighbours)
+            return self._prepare_bodies(drawing, neighbours, hints, digest, progress, with_normals)
+        height, overlaps = self.surface(drawing, progress, neighbours, hints)
         normals = self.normals(drawing, progress, neighbours) if with_normals else None
         step = surface_step(drawing)
         return PreparedDrawing(
@@ -281,13 +294,21 @@ class Pipeline:
         self,
         drawing: Drawing,
         neighbours: LazyNeighbours | None,
+        hints: Sequence[DepthHint],
         digest: str,
         progress: Progress,
         with_normals: bool,
     ) -> PreparedDrawing:
         own = [
-            self.prepare(body.drawing, body_neighbours(neighbours, body.name), progress=progress)
-            for body in drawing.bodies
+            self.prepare(
+                body.drawing,
+                body_neighbours(neighbours, body.name),
+                hints=own_hints,
+                progress=progress,
+            )
+            for body, own_hints in zip(
+                drawing.bodies, hints_by_body(drawing.bodies, hints), strict=True
+            )
         ]
         bodies = stack_bodies(drawing.bodies, own, 1)
         step = surface_step(drawing)
@@ -323,16 +344,19 @@ class Pipeline:
             seen[place][inside] = normals[inside]
         return seen
 
-    def prepare_quick(self, planes: DrawingPlanes, digest: str = "") -> PreparedDrawing:
+    def prepare_quick(
+        self, planes: DrawingPlanes, digest: str = "", choices: Sequence[LayerBody] = ()
+    ) -> PreparedDrawing:
         """Prepare a drawing in quick detail, in a fraction of a second: small, from quick normals,
-        which are neither cached nor filtered.
+        which are neither cached nor filtered, and without overlaps. ``choices`` are the artist's,
+        of the bodies of layers.
 
         Raises:
             DrawingError: there is nothing to light.
         """
         height, width = planes.pixels.shape[:2]
         step = -(-max(width, height) // QUICK_PX)
-        drawing = planes.reduced(step).decompose()
+        drawing = planes.reduced(step).decompose(choices)
         if not drawing.bodies:
             return self._prepare_quick(drawing, (width, height), step, digest)
         own = [

@@ -17,6 +17,7 @@ from ..pipeline import Pipeline
 from ..preview import LightContribution, Viewport, ViewRequest
 from ..preview.contribution import preview_surface
 from ..preview.refinement import MOVING, REFINEMENT
+from ..preview.shape import DrawingShape
 from ..render import RenderChild
 from ..scene import Scene
 
@@ -30,7 +31,7 @@ def cycles_alone(picture: NDArray[np.uint8], scene: Scene) -> dict[str, float]:
         drawing = pipeline.prepare_quick(DrawingPlanes(picture))
     crop = (0.0, 0.0, float(picture.shape[1]), float(picture.shape[0]))
     viewport = Viewport(1, 1, "lit", crop, (500, 500))
-    view = ViewRequest("", viewport, "", IDENTITY, 1, scene).resolve(drawing)
+    view = ViewRequest("", viewport, DrawingShape(""), IDENTITY, 1, scene).resolve(drawing)
     assert view is not None
     contribution = view.contributions[0]
     figures: dict[str, float] = {}

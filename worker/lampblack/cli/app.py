@@ -29,7 +29,7 @@ COMMANDS: Commands = {
     ),
     "flicker": (
         "lampblack_research.cli.flicker:flicker",
-        "Measure how much normals change from drawing to drawing.",
+        "Measure how much normals and cuts change from drawing to drawing.",
     ),
     "bench": ("lampblack.cli.bench:bench", "Measure speed on this machine."),
     "doctor": ("lampblack.cli.doctor:doctor", "Check this installation part by part."),

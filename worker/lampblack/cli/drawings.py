@@ -14,6 +14,8 @@ from .console import EXIT_FAILED, print_error, progress_bar
 if TYPE_CHECKING:
     from ..drawing import Drawing
     from ..finals.resolve import ResolvedShot
+    from ..pipeline import Pipeline
+    from ..prepared import PreparedDrawing
     from ..shot import ShotFrame
 
     Frames = Sequence[ShotFrame]
@@ -55,3 +57,23 @@ def each_drawing(
             yield frames, drawing
     if failed:
         raise typer.Exit(EXIT_FAILED)
+
+
+def each_prepared(
+    resolved: ResolvedShot, pipeline: Pipeline, doing: str
+) -> Iterator[tuple[Frames, PreparedDrawing]]:
+    """Each group of frames that show one drawing, with the drawing prepared in full detail: with
+    its neighbours, and with the hints of the scene."""
+    from ..finals.hint_loader import HintLoader
+    from ..finals.neighbours import NeighbourLoader
+    from ..scene import Canvas
+    from ..shot import by_drawing
+
+    shot, overrides = resolved.shot, resolved.overrides
+    around = NeighbourLoader(shot, pipeline, resolved.reach, choices=overrides.layer_bodies)
+    loader = HintLoader(shot, around)
+    groups = by_drawing(resolved.frames)
+    for frames, drawing in each_drawing(resolved, groups, doing, around.drawing):
+        scene = overrides.scene(shot.canvas or Canvas(*drawing.size))
+        hints = loader.hints(frames[0], drawing, scene)
+        yield frames, pipeline.prepare(drawing, around.neighbours(frames[0]), hints=hints)

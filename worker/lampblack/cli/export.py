@@ -39,4 +39,4 @@ def export(
     keep_inputs(output, settings.inputs)
     with Pipeline(surface_cache()) as pipeline:
         shown = first_frame(resolve_shot(settings), pipeline)
-        save_scene(pipeline, shown.drawing, shown.scene, output, shown.neighbours)
+        save_scene(shown.drawing, shown.prepare(pipeline), shown.scene, output)

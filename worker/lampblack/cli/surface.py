@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..finals.settings import RenderSettings
-from .drawings import each_drawing
+from .drawings import each_drawing, each_prepared
 from .options import with_settings
 from .outputs import check_suffix, keep_inputs
 
@@ -65,7 +65,9 @@ def normals(
                     save_picture(targets.path(frame), picture)
 
 
-@with_settings("inputs", "frames", "solver", "grids", "layer_body", "steady", "mask", "ink")
+@with_settings(
+    *("inputs", "frames", "solver", "grids", "depth_hints", "layer_body", "steady", "mask", "ink")
+)
 def mesh(
     settings: RenderSettings,
     output: Annotated[
@@ -93,20 +95,12 @@ def mesh(
     """
     from ..cache import surface_cache
     from ..choices import PipelineOptions
-    from ..finals.neighbours import NeighbourLoader
     from ..pipeline import Pipeline
-    from ..shot import by_drawing
     from ..surface import save_mesh
 
     shot, targets = _resolve(settings, output, "glb", "obj", "ply")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids, settings.solver)) as pipeline:
-        around = NeighbourLoader(
-            shot.shot, pipeline, shot.reach, choices=shot.overrides.layer_bodies
-        )
-        groups = by_drawing(shot.frames)
-        for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
-            neighbours = around.neighbours(frames[0])
-            prepared = pipeline.prepare(drawing, neighbours)
+        for frames, prepared in each_prepared(shot, pipeline, "Inflating"):
             relief = prepared.relief(stride=stride, relief_scale=relief_scale)
             for frame in frames:
                 save_mesh(relief, targets.path(frame))
@@ -162,19 +156,12 @@ def _write_heights(settings: RenderSettings, output: str, *kinds: str) -> None:
     from ..atomic import atomic_file
     from ..cache import surface_cache
     from ..drawing import save_picture
-    from ..finals.neighbours import NeighbourLoader
     from ..pipeline import Pipeline
-    from ..shot import by_drawing
     from ..surface import depth_picture, full_size
 
     shot, targets = _resolve(settings, output, *kinds)
     with Pipeline(surface_cache()) as pipeline:
-        around = NeighbourLoader(
-            shot.shot, pipeline, shot.reach, choices=shot.overrides.layer_bodies
-        )
-        groups = by_drawing(shot.frames)
-        for frames, drawing in each_drawing(shot, groups, "Inflating", around.drawing):
-            prepared = pipeline.prepare(drawing, around.neighbours(frames[0]))
+        for frames, prepared in each_prepared(shot, pipeline, "Inflating"):
             found = full_size(prepared.height, prepared.mask, prepared.size)
             for frame in frames:
                 if targets.kind == "npy":

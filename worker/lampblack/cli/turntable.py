@@ -59,7 +59,8 @@ def turntable(
     with Pipeline(surface_cache()) as pipeline, progress_bar() as bar:
         pipeline.renderer.start()
         shown = first_frame(shot, pipeline)
-        turned = turn_table(pipeline, shown.drawing, shown.scene, pictures, size, shown.neighbours)
+        prepared = shown.prepare(pipeline)
+        turned = turn_table(pipeline, shown.drawing, prepared, shown.scene, pictures, size)
         loop = list(bar.track(turned, total=pictures, description="Turning"))
     if animated:
         save_gif(output, loop)

@@ -8,21 +8,28 @@ from ..drawing import Drawing
 from ..errors import LampblackError
 from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
-from ..scene import Canvas, Scene
+from ..prepared import PreparedDrawing
+from ..scene import Canvas, DepthHint, Scene
 from ..shot import ShotFrame
 from ..timeline import scene_at
+from .hint_loader import HintLoader
 from .neighbours import NeighbourLoader
 from .resolve import ResolvedShot
 
 
 @dataclass(frozen=True)
 class OneFrame:
-    """A drawing, its scene in the drawing's own pixels, and its neighbours in time."""
+    """A drawing with what prepares it, and its scene in the drawing's own pixels."""
 
     frame: ShotFrame
     drawing: Drawing
     scene: Scene
     neighbours: LazyNeighbours | None
+    hints: tuple[DepthHint, ...]
+
+    def prepare(self, pipeline: Pipeline) -> PreparedDrawing:
+        """Prepare it in full detail."""
+        return pipeline.prepare(self.drawing, self.neighbours, hints=self.hints)
 
 
 def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
@@ -41,4 +48,5 @@ def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     canvas = resolved.shot.canvas or Canvas(*drawing.size)
     scene = scene_at(resolved.overrides.scene(canvas), frame.number or 1)
     placed = resolved.shot.place(frame, scene, drawing.size)
-    return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame))
+    hints = HintLoader(resolved.shot, neighbour_loader).hints(frame, drawing, scene)
+    return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame), hints)

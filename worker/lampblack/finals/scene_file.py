@@ -14,8 +14,6 @@ from trimesh.visual.texture import TextureVisuals
 from ..atomic import atomic_file, atomic_path
 from ..drawing import Drawing
 from ..materials import MaterialTable
-from ..normals.temporal.temporal_filter import LazyNeighbours
-from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
 from ..render import QUALITIES, RenderChild, frame_request
 from ..scene import Scene
@@ -25,13 +23,7 @@ SUFFIXES = (".glb", ".blend")
 GLOSSY, MATT = 0.5, 1.0
 
 
-def save_scene(
-    pipeline: Pipeline,
-    drawing: Drawing,
-    scene: Scene,
-    path: Path,
-    neighbours: LazyNeighbours | None = None,
-) -> None:
+def save_scene(drawing: Drawing, prepared: PreparedDrawing, scene: Scene, path: Path) -> None:
     """Write the relief in its drawing's colours. A .blend also has the lights, floor and camera.
 
     In both, half the canvas's long side is 1, and the canvas's centre is the origin, with x right,
@@ -40,7 +32,6 @@ def save_scene(
     Raises:
         OutputError: it cannot be written. RenderError: Blender failed.
     """
-    prepared = pipeline.prepare(drawing, neighbours)
     surface = prepared.surface(scene, QUALITIES[scene.quality].mesh_stride)
     relief = surface.relief
     if path.suffix.lower() == ".glb":

@@ -18,6 +18,7 @@ from ..scene import Canvas, Scene, encode_scene
 from ..shot import Cel, Picture, ShotFrame, by_drawing
 from ..timeline import scene_at
 from ..warning_collector import collect_warnings
+from .hint_loader import HintLoader
 from .neighbours import NeighbourLoader
 from .resolve import ResolvedJob
 
@@ -92,9 +93,11 @@ def plan(
 
 @dataclass
 class _Lighting:
-    """Frames of one drawing that share a light."""
+    """Frames of one drawing that share a light: ``scene`` in the cel's pixels, and in those of the
+    canvas."""
 
     scene: Scene
+    canvas_scene: Scene
     frames: list[StampedFrame]
 
 
@@ -106,6 +109,7 @@ class _Planner:
         self._neighbours = NeighbourLoader(
             job.shot, pipeline, job.reach, check, job.overrides.layer_bodies
         )
+        self._hints = HintLoader(job.shot, self._neighbours)
         self._made_by = digest(__version__, job.options, _weights())
         self._canvas: Canvas | None = None
 
@@ -130,7 +134,7 @@ class _Planner:
                 yield Failed([(frame, "")], error)
                 continue
             if not lightings or lightings[-1].scene != placed:
-                lightings.append(_Lighting(placed, []))
+                lightings.append(_Lighting(placed, scene, []))
             lightings[-1].frames.append((frame, stamp))
         if cel is not None and lightings:
             yield from self._prepare(lightings, cel)
@@ -142,9 +146,11 @@ class _Planner:
         all_frames = [stamped for lighting in lightings for stamped in lighting.frames]
         try:
             with collect_warnings() as collected:
+                drawing = self._neighbours.drawing(frame)
                 prepared = self._pipeline.prepare(
-                    self._neighbours.drawing(frame),
+                    drawing,
                     self._neighbours.neighbours(frame),
+                    hints=self._hints.hints(frame, drawing, lightings[0].canvas_scene),
                     progress=lambda share: self._check(),
                     with_normals=self._job.targets.kind == "exr",
                 )
@@ -183,7 +189,8 @@ class _Planner:
 
     def _stamp(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> str:
         names = frame.drawing, self._neighbours.names(frame), frame.setting
-        made_from = (self._made_by, self._job.targets.kind, *names)
+        hinted = self._hints.names(frame, scene)
+        made_from = (self._made_by, self._job.targets.kind, *names, *hinted)
         return digest(*made_from, canvas, encode_scene(scene))
 
 

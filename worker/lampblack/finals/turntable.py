@@ -15,7 +15,6 @@ from scipy import ndimage
 from ..camera import scene_in_view
 from ..composite import composite
 from ..drawing import Drawing
-from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
 from ..render import LightPasses, Passes, frame_request
@@ -45,14 +44,15 @@ def swing(count: int) -> list[float]:
 def turn_table(
     pipeline: Pipeline,
     drawing: Drawing,
+    prepared: PreparedDrawing,
     scene: Scene,
     count: int,
     size: int,
-    neighbours: LazyNeighbours | None = None,
 ) -> Iterator[Picture]:
     """(h, w, 3) uint8 sRGB pictures of the turning relief: clay on the left, lit on the right.
 
     Args:
+        prepared: from ``drawing``, in full detail.
         scene: in the drawing's pixels; lights do not move, and the floor is omitted.
         count: number of pictures in the loop. size: longest side of each half, pixels.
 
@@ -62,7 +62,6 @@ def turn_table(
     scene = replace(scene, quality="medium", floor=None)
     long_side = max(int(np.ptp(np.flatnonzero(drawing.mask.any(axis=k)))) + 1 for k in (0, 1))
     stride = max(1, round(long_side / size))
-    prepared = pipeline.prepare(drawing, neighbours)
     relief = prepared.relief(stride=stride, relief_scale=scene.relief_scale)
     surface = prepared.with_materials(relief, scene)
     middle = _middle(relief)

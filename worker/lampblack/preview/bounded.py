@@ -53,6 +53,11 @@ class BoundedStore(Generic[Key, Value]):
             for key in [key for key in self._held if key not in keys]:
                 self._drop(key)
 
+    def keys(self) -> list[Key]:
+        """All keys, the least recently used first."""
+        with self._lock:
+            return list(self._held)
+
     def __contains__(self, key: object) -> bool:
         return key in self._held
 

@@ -137,7 +137,7 @@ class Painter:
             return False
         if current.digest != request.digest or request.order < shown.order:
             return False
-        drawing = self.state.drawing(request.digest)
+        drawing = self.state.drawing(request.shape)
         if drawing is None:
             return False
         if request.viewport.show == "lit":

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..drawing import Drawing, DrawingPlanes, Palette
 from ..errors import LampblackError
+from ..hints import HintedDrawing, carry_hints
+from ..normals.temporal.temporal_filter import TemporalFilter
 from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
 from ..scene import default_scene
 from ..warning_collector import collect_warnings
 from .contribution import preview_surface
+from .shape import DrawingShape
 from .state import DrawingKey, PreviewState
 
 
@@ -35,7 +38,8 @@ class Preparer:
     state: PreviewState
     pipeline: Pipeline
     done: Callable[[str, Palette | None, list[str]], None]
-    _decomposed: tuple[str, Drawing] | None = None
+    _decomposed: tuple[tuple[str, str], Drawing] | None = None
+    _temporal_filter: TemporalFilter = field(default_factory=TemporalFilter)
 
     def run(self) -> None:
         """Prepare drawings until the state closes."""
@@ -50,14 +54,17 @@ class Preparer:
     def step(self) -> bool:
         """Prepare the most urgent drawing; False if there is none, or its planes are missing."""
         key = self._next()
-        planes = None if key is None else self.state.planes.get(key[0])
+        planes = None if key is None else self.state.planes.get(key[0].digest)
         if key is None or planes is None:
             return False
-        digest, detail = key
+        shape, detail = key
+        digest = shape.digest
         try:
             if detail == "quick":
                 with collect_warnings():
-                    prepared = self.pipeline.prepare_quick(planes, digest).compact()
+                    prepared = self.pipeline.prepare_quick(
+                        planes, shape.key, shape.layers
+                    ).compact()
             else:
                 prepared = self._prepare_full(key, planes)
         except _SupersededError:
@@ -67,7 +74,7 @@ class Preparer:
         else:
             self.state.drawings.put(key, prepared, prepared.nbytes)
             if detail == "full":
-                self.state.drawings.drop((digest, "quick"))
+                self.state.drawings.drop((shape, "quick"))
         self.done(digest, None, [])
         return True
 
@@ -81,21 +88,23 @@ class Preparer:
     def _next(self) -> DrawingKey | None:
         """The most urgent drawing that is not yet prepared and can be."""
         for key in self.state.wanted:
-            digest, _ = key
-            if key in self.state.drawings or self.state.failure(digest) is not None:
+            shape, _ = key
+            if key in self.state.drawings or self.state.failure(shape.digest) is not None:
                 continue
-            if digest in self.state.planes:
+            hinted = (source.digest for source in shape.sources)
+            if all(digest in self.state.planes for digest in (shape.digest, *hinted)):
                 return key
         return None
 
     def _prepare_full(self, key: DrawingKey, planes: DrawingPlanes) -> PreparedDrawing:
         """Raises _SupersededError: a more urgent drawing is wanted."""
-        digest, _ = key
-        if self._decomposed is None or self._decomposed[0] != digest:
+        shape, _ = key
+        said = shape.digest, repr(shape.layers)
+        if self._decomposed is None or self._decomposed[0] != said:
             with collect_warnings() as warnings:
-                drawing = planes.decompose()
-            self._decomposed = digest, drawing
-            self.done(digest, drawing.palette, warnings)
+                drawing = planes.decompose(shape.layers)
+            self._decomposed = said, drawing
+            self.done(shape.digest, drawing.palette, warnings)
 
         def give_way(share: float) -> None:
             if self.state.closing or self._next() != key:
@@ -103,8 +112,21 @@ class Preparer:
 
         drawing = self._decomposed[1]
         give_way(0)
+        hints = carry_hints(self._hinted(shape, drawing), drawing, self._temporal_filter)
         prepared = self.pipeline.prepare(
-            drawing, digest=digest, progress=give_way, with_normals=True
+            drawing, hints=hints, digest=shape.key, progress=give_way, with_normals=True
         ).compact()
         self._decomposed = None
         return prepared
+
+    def _hinted(self, shape: DrawingShape, drawing: Drawing) -> Iterator[HintedDrawing]:
+        """The drawings with hints that count for ``drawing``; those that cannot be read have no
+        say."""
+        for source in shape.sources:
+            if source.digest == shape.digest:
+                yield HintedDrawing(drawing, source.hints)
+                continue
+            planes = self.state.planes.get(source.digest)
+            if planes is not None:
+                with collect_warnings(), suppress(LampblackError):
+                    yield HintedDrawing(planes.decompose(), source.hints)

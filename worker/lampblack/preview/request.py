@@ -10,6 +10,7 @@ from ..composite.resample import Box
 from ..prepared import Detail, PreparedDrawing
 from ..scene import Scene
 from .contribution import LightContribution, character_area, contributions_of
+from .shape import DrawingShape
 
 Show = Literal["lit", "normals", "relief"]
 
@@ -48,7 +49,7 @@ class ViewRequest:
     Attributes:
         session: name of the session.
         viewport: the client's viewport.
-        digest: digest of the drawing that the frame shows.
+        shape: the drawing that the frame shows, and what shapes its surface.
         camera: from canvas to view, see section 4 of the specification.
         revision: revision of the scene; 0 before the first.
         scene: the scene at the frame, in canvas pixels; None before the first.
@@ -56,7 +57,7 @@ class ViewRequest:
 
     session: str
     viewport: Viewport
-    digest: str
+    shape: DrawingShape
     camera: Affine
     revision: int
     scene: Scene | None
@@ -65,12 +66,17 @@ class ViewRequest:
     )
 
     @property
+    def digest(self) -> str:
+        """Digest of the drawing that the frame shows."""
+        return self.shape.digest
+
+    @property
     def order(self) -> tuple[int, int]:
         """A sort key: newer requests are greater."""
         return self.viewport.request, self.revision
 
     def resolve(self, drawing: PreparedDrawing) -> ResolvedView | None:
-        """The scene on ``drawing``, which is prepared from the drawing ``digest``; None without a
+        """The scene on ``drawing``, which is prepared from ``shape``; None without a
         scene.
 
         It is computed once per detail and shared by all threads. If two threads compute it at the

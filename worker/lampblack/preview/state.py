@@ -12,9 +12,10 @@ from ..prepared import Detail, PreparedDrawing
 from .bounded import MIB, BoundedStore
 from .light_store import LightStore
 from .request import ViewRequest
+from .shape import DrawingShape
 
 RendererState = Literal["off", "starting", "idle", "working", "restarting"]
-DrawingKey = tuple[str, Detail]
+DrawingKey = tuple[DrawingShape, Detail]
 
 MAX_FAILURES = 1000
 
@@ -92,9 +93,17 @@ class PreviewState:
         """Why a drawing cannot be lit; None if no reason is known."""
         return self._failures.get(digest)
 
-    def drawing(self, digest: str) -> PreparedDrawing | None:
+    def drawing(self, shape: DrawingShape) -> PreparedDrawing | None:
         """A prepared drawing in the fullest detail so far."""
-        return self.drawings.get((digest, "full")) or self.drawings.get((digest, "quick"))
+        return self.drawings.get((shape, "full")) or self.drawings.get((shape, "quick"))
+
+    def is_prepared(self, digest: str, *details: Detail) -> bool:
+        """Whether a drawing is prepared, whatever the artist says of its depth; in any of
+        ``details``, or in any detail at all."""
+        return any(
+            shape.digest == digest and (not details or detail in details)
+            for shape, detail in self.drawings.keys()  # noqa: SIM118 (no mapping)
+        )
 
     def still_for(self) -> float:
         """Seconds since something visible changed."""

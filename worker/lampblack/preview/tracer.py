@@ -134,7 +134,7 @@ class Tracer:
             lights.keep(c for _, view in filter(None, found) for c in view.contributions)
         for request in self.state.ahead:
             if not lights.full and self._refine(request, LOW):
-                drawing = self.state.drawing(request.digest)
+                drawing = self.state.drawing(request.shape)
                 if drawing is not None:
                     self.painter.prepare(request, drawing)
                 return True
@@ -179,7 +179,7 @@ class Tracer:
 
     def _resolve(self, request: ViewRequest) -> tuple[PreparedDrawing, ResolvedView] | None:
         """The prepared drawing and the scene on it; None if either is missing."""
-        drawing = self.state.drawing(request.digest)
+        drawing = self.state.drawing(request.shape)
         view = None if drawing is None else request.resolve(drawing)
         return None if drawing is None or view is None else (drawing, view)
 

@@ -6,11 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import islice
 
+from ..camera import Affine
 from ..drawing import Palette
 from ..preview import PreviewState, ViewRequest
 from ..preview.bounded import MIB, BoundedStore
 from ..preview.painter import Painter
 from ..preview.refinement import LOW
+from ..preview.shape import DrawingShape
 from ..preview.state import DrawingKey
 from ..protocol import (
     ErrorCode,
@@ -25,7 +27,7 @@ from ..protocol import Palette as PaletteMessage
 from ..protocol.fields import Message
 from .faults import fault_message
 from .overlaps import overlaps_on_canvas
-from .session import FrameContent, Session
+from .session import Session
 
 MAX_ASKED = 2
 """Most drawings requested from a client at the same time, for frames outside its viewport."""
@@ -73,17 +75,17 @@ class Planner:
             view = session.view()
             if view is not None:
                 views[session.name] = view
-                if (view.digest, "full") not in self.state.drawings:
-                    urgent.append((view.digest, "quick"))
-                urgent.append((view.digest, "full"))
-                self._request_missing(session, view.digest)
+                if not self.state.is_prepared(view.digest, "full"):
+                    urgent.append((view.shape, "quick"))
+                urgent.append((view.shape, "full"))
+                self._request_missing(session, view.shape)
                 self._report_drawing(session, view)
             for question in session.questions:
-                digest = session.frames[question.frame].digest
-                urgent.append((digest, "full"))
-                self._request_missing(session, digest)
+                shape = session.shape(question.frame)
+                urgent.append((shape, "full"))
+                self._request_missing(session, shape)
             ahead += self._nearest(session)
-        later: list[DrawingKey] = [(request.digest, "full") for request in ahead]
+        later: list[DrawingKey] = [(request.shape, "full") for request in ahead]
         self.state.show(views, tuple(ahead), tuple(dict.fromkeys(urgent + later)))
         for view in views.values():
             self.painter.offer(view)
@@ -95,7 +97,7 @@ class Planner:
         held = {
             digest
             for digest in {content.digest for content in session.frames.values()}
-            if digest in self.state.planes or self.state.drawing(digest)
+            if digest in self.state.planes or self.state.is_prepared(digest)
         }
         return sum(content.digest in held for content in session.frames.values())
 
@@ -104,7 +106,7 @@ class Planner:
         view = session.view()
         lit = set()
         for request in [*([view] if view else []), *session.ahead()]:
-            drawing = self.state.drawings.get((request.digest, "full"))
+            drawing = self.state.drawings.get((request.shape, "full"))
             resolved = drawing and request.resolve(drawing)
             contributions = resolved.contributions if resolved else ()
             if drawing and all(self.state.lights.level(c) >= LOW for c in contributions):
@@ -117,7 +119,7 @@ class Planner:
         view = session.view()
         if view is None or view.viewport.show != "lit":
             return []
-        drawing = self.state.drawings.get((view.digest, "full"))
+        drawing = self.state.drawings.get((view.shape, "full"))
         if drawing is None:
             return []
         room = AHEAD_SHARE * self.state.drawings.max_bytes / drawing.nbytes / len(self.sessions)
@@ -125,15 +127,16 @@ class Planner:
         for request in nearest:
             if len(session.asked) >= MAX_ASKED:
                 break
-            self._request_missing(session, request.digest)
+            self._request_missing(session, request.shape)
         return nearest
 
-    def _request_missing(self, session: Session, digest: str) -> None:
-        """Request a missing drawing, once."""
-        held = digest in self.state.planes or (digest, "full") in self.state.drawings
-        if held or digest in session.asked or self.state.failure(digest) is not None:
+    def _request_missing(self, session: Session, shape: DrawingShape) -> None:
+        """Request a missing drawing, and those whose hints it needs, once."""
+        if (shape, "full") in self.state.drawings or self.state.failure(shape.digest) is not None:
             return
-        self.ask(session, digest)
+        for digest in (shape.digest, *(source.digest for source in shape.sources)):
+            if digest not in self.state.planes and digest not in session.asked:
+                self.ask(session, digest)
 
     def ask(self, session: Session, digest: str) -> None:
         """Request a drawing, if a frame still shows it."""
@@ -158,26 +161,26 @@ class Planner:
     def _answer_questions(self, session: Session) -> None:
         waiting, session.questions = session.questions, []
         for question in waiting:
-            content = session.frames[question.frame]
+            content, shape = session.frames[question.frame], session.shape(question.frame)
             failure = self.state.failure(content.digest)
             if failure is not None:
                 about = question.request, question.frame
                 self.send(session, fault_message(failure, request=about[0], frame=about[1]))
                 continue
             answer = (
-                self._palette(question, content)
+                self._palette(question, shape)
                 if isinstance(question, GetPalette)
-                else self._overlaps(question, content, session.revision)
+                else self._overlaps(question, shape, content.camera, session.revision)
             )
             if answer is None:
                 session.questions.append(question)
             else:
                 self.send(session, answer)
 
-    def _palette(self, question: GetPalette, content: FrameContent) -> Message | None:
+    def _palette(self, question: GetPalette, shape: DrawingShape) -> Message | None:
         """The answer; None while the drawing is not decomposed."""
-        palette = self._palettes.get(content.digest)
-        drawing = self.state.drawings.get((content.digest, "full"))
+        palette = self._palettes.get(shape.digest)
+        drawing = self.state.drawings.get((shape, "full"))
         if palette is None and drawing is not None:
             palette = drawing.layers.palette
         if palette is None:
@@ -185,20 +188,20 @@ class Planner:
         swatches = tuple(Swatch(colour=s.colour, pixels=s.pixels) for s in palette.swatches)
         about = question.request, question.frame
         return PaletteMessage(
-            request=about[0], frame=about[1], digest=content.digest, swatches=swatches
+            request=about[0], frame=about[1], digest=shape.digest, swatches=swatches
         )
 
     def _overlaps(
-        self, question: GetOverlaps, content: FrameContent, revision: int
+        self, question: GetOverlaps, shape: DrawingShape, camera: Affine, revision: int
     ) -> Message | None:
         """The answer; None while the drawing is not prepared."""
-        drawing = self.state.drawings.get((content.digest, "full"))
+        drawing = self.state.drawings.get((shape, "full"))
         if drawing is None:
             return None
         return Overlaps(
             request=question.request,
             frame=question.frame,
-            digest=content.digest,
+            digest=shape.digest,
             revision=revision,
-            overlaps=overlaps_on_canvas(drawing.overlaps, content.camera),
+            overlaps=overlaps_on_canvas(drawing.overlaps, camera),
         )

@@ -6,11 +6,13 @@ import secrets
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field, replace
 
-from ..camera import Affine
+from ..camera import Affine, hint_in_view
+from ..hints import hint_frames
 from ..preview import Viewport, ViewRequest
+from ..preview.shape import DrawingShape, HintSource
 from ..protocol import ErrorCode, GetOverlaps, GetPalette, error_message
 from ..protocol.fields import Message
-from ..scene import Scene
+from ..scene import Depth, Scene
 from ..timeline import is_keyed, scene_at
 
 Question = GetPalette | GetOverlaps
@@ -49,11 +51,13 @@ class Session:
     questions: list[Question] = field(default_factory=list)
     informed: set[str] = field(default_factory=set)
     _requests: dict[int, ViewRequest] = field(default_factory=dict)
+    _shapes: dict[str, DrawingShape] = field(default_factory=dict)
 
     def set_scene(self, revision: int, scene: Scene) -> None:
         """Replace the scene."""
         self.revision, self.scene = revision, scene
         self._requests.clear()
+        self._shapes.clear()
 
     def look_at(self, viewport: Viewport | None) -> None:
         """Set or remove the viewport."""
@@ -66,7 +70,7 @@ class Session:
         if before is not None and before.digest != content.digest:
             self.asked.discard(before.digest)  # a client does not send what no frame shows
         self.frames[frame] = content
-        self._requests.pop(frame, None)
+        self._frame_changed(frame)
 
     def drop_frame(self, frame: int) -> None:
         """Remove the content of ``frame``."""
@@ -74,7 +78,13 @@ class Session:
         if before is not None:
             self.asked.discard(before.digest)
         self.questions = [asked for asked in self.questions if asked.frame != frame]
+        self._frame_changed(frame)
+
+    def _frame_changed(self, frame: int) -> None:
         self._requests.pop(frame, None)
+        if self._shapes:  # hints of this frame count for others
+            self._shapes.clear()
+            self._requests.clear()
 
     def view(self) -> ViewRequest | None:
         """The current view request; None without a viewport, or if its frame has no drawing."""
@@ -122,6 +132,35 @@ class Session:
         if request is None or request.viewport != viewport:
             scene = None if self.scene is None else scene_at(self.scene, viewport.frame)
             request = self._requests[viewport.frame] = ViewRequest(
-                self.name, viewport, content.digest, content.camera, self.revision, scene
+                self.name,
+                viewport,
+                self.shape(viewport.frame),
+                content.camera,
+                self.revision,
+                scene,
             )
         return request
+
+    def shape(self, frame: int) -> DrawingShape:
+        """The drawing of ``frame``, with what the artist says of its depth. It is the same for all
+        frames that show the drawing."""
+        digest = self.frames[frame].digest
+        depth = Depth() if self.scene is None else self.scene.depth
+        if depth == Depth():
+            return DrawingShape(digest)
+        if digest not in self._shapes:
+            first = min(n for n, content in self.frames.items() if content.digest == digest)
+            sources = tuple(
+                HintSource(
+                    self.frames[hinted].digest,
+                    tuple(
+                        hint_in_view(hint, self.frames[hinted].camera)
+                        for hint in depth.hints
+                        if hint.frame == hinted
+                    ),
+                )
+                for hinted in hint_frames(depth, first)
+                if hinted in self.frames
+            )
+            self._shapes[digest] = DrawingShape(digest, depth.layers, sources)
+        return self._shapes[digest]

@@ -1,0 +1,62 @@
+"""Loading the hints of depth that count for a frame of a shot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ..drawing import Drawing
+from ..errors import LampblackError
+from ..hints import HintedDrawing, carry_hints, hint_frames
+from ..normals.temporal.temporal_filter import TemporalFilter
+from ..scene import DepthHint, Scene
+from ..shot import Shot, ShotFrame
+from .neighbours import NeighbourLoader
+
+
+@dataclass
+class HintLoader:
+    """Finds the hints for drawings of ``shot``, which ``neighbours`` decomposes.
+
+    A frame without a number is counted by its position in the shot.
+    """
+
+    shot: Shot
+    neighbours: NeighbourLoader
+    _temporal_filter: TemporalFilter = field(default_factory=TemporalFilter)
+
+    def __post_init__(self) -> None:
+        self._numbers = {
+            index + 1 if frame.number is None else frame.number: frame
+            for index, frame in enumerate(self.shot.frames)
+        }
+        self._first: dict[str, int] = {}
+        for number, frame in self._numbers.items():
+            self._first[frame.drawing] = min(number, self._first.get(frame.drawing, number))
+
+    def hints(self, frame: ShotFrame, drawing: Drawing, scene: Scene) -> tuple[DepthHint, ...]:
+        """The hints for ``frame``, in pixels of ``drawing``; ``scene`` is on the canvas."""
+        if not scene.depth.hints:
+            return ()
+        return carry_hints(self._hinted(frame, drawing, scene), drawing, self._temporal_filter)
+
+    def names(self, frame: ShotFrame, scene: Scene) -> tuple[str, ...]:
+        """The drawings on which these hints were made."""
+        return tuple(source.drawing for _, source in self._sources(frame, scene))
+
+    def _sources(self, frame: ShotFrame, scene: Scene) -> list[tuple[int, ShotFrame]]:
+        """The same for all frames that show one drawing, since it is lit once."""
+        numbers = hint_frames(scene.depth, self._first.get(frame.drawing, 0))
+        return [(n, self._numbers[n]) for n in numbers if n in self._numbers]
+
+    def _hinted(self, frame: ShotFrame, drawing: Drawing, scene: Scene) -> Iterator[HintedDrawing]:
+        """Drawings that cannot be read have no say."""
+        for number, source in self._sources(frame, scene):
+            try:
+                same = source.drawing == frame.drawing
+                made_on = drawing if same else self.neighbours.drawing(source)
+                placed = self.shot.place(source, scene, made_on.size)
+            except LampblackError:
+                continue
+            hints = tuple(hint for hint in placed.depth.hints if hint.frame == number)
+            yield HintedDrawing(made_on, hints)
