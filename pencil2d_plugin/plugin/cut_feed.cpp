@@ -1,7 +1,16 @@
 #include "plugin/cut_feed.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace lampblack
 {
+
+namespace
+{
+constexpr int HintReach = 48; ///< frames before and after its own for which a hint counts, as in hints.py
+constexpr int MaxHintedFrames = 8; ///< the nearest that are sent
+} // namespace
 
 CutFeed::CutFeed(Host& host, Worker& worker, FrameFeed& feed, SceneDocument& document, LampTool& tool,
                  QObject* parent)
@@ -40,10 +49,33 @@ CutFeed::CutFeed(Host& host, Worker& worker, FrameFeed& feed, SceneDocument& doc
 void CutFeed::ask()
 {
     const int frame = mHost.currentFrame();
-    if (!mTool.isActive() || !mTool.showsDepth() || !mFeed.isUpToDate(frame))
+    if (!mTool.isActive() || !mFeed.isUpToDate(frame))
+        return;
+    sendHintedFrames();
+    if (!mTool.showsDepth())
         return;
     mAskedDepth = mDocument.scene().depth;
     mWorker.requestOverlaps(frame);
+}
+
+void CutFeed::sendHintedFrames()
+{
+    const int current = mHost.currentFrame();
+    QVector<int> frames;
+    for (const DepthHint& hint : mDocument.scene().depth.hints)
+    {
+        if (hint.frame <= mHost.frameCount() && std::abs(hint.frame - current) <= HintReach &&
+            !frames.contains(hint.frame))
+            frames.append(hint.frame);
+    }
+    std::sort(frames.begin(), frames.end(),
+              [current](int a, int b) { return std::abs(a - current) < std::abs(b - current); });
+    frames.resize(std::min(frames.size(), MaxHintedFrames));
+    for (const int frame : qAsConst(frames))
+    {
+        if (!mFeed.isUpToDate(frame))
+            mFeed.requestAll(frame, frame);
+    }
 }
 
 } // namespace lampblack

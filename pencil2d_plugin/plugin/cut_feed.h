@@ -1,4 +1,4 @@
-// Asks where the drawing overlaps itself, for the Depth view.
+// What the Depth view and the corrections of depth need of the worker.
 #pragma once
 
 #include "host/host.h"
@@ -13,7 +13,8 @@ namespace lampblack
 {
 
 /// While the tool shows the depth, it keeps the overlaps of the current frame up to date: after a change of
-/// the frame, its drawing, or what the scene says of depth.
+/// the frame, its drawing, or what the scene says of depth. While the tool is in use, it also sends the
+/// frames whose hints count at the current one: the worker carries them over from their drawings.
 class CutFeed : public QObject
 {
     Q_OBJECT
@@ -24,6 +25,7 @@ public:
 
 private:
     void ask();
+    void sendHintedFrames();
 
     Host& mHost;
     Worker& mWorker;

@@ -1,4 +1,5 @@
 // The plugin as a whole: what the worker is sent and what the artist is shown.
+#include "support/mouse.h"
 #include "support/studio_test.h"
 #include "tool/panel/problem_card.h"
 
@@ -186,6 +187,32 @@ private Q_SLOTS:
         mHost->goToFrame(1);
         QTest::qWait(20);
         QCOMPARE(mWorker->mOverlaps.size(), asked);
+    }
+
+    void framesWithHintsThatCountHereAreSent()
+    {
+        mHost->open();
+        QCOMPARE(mWorker->mPut, QVector<int>{1});
+        find<QAbstractButton>("panel.view.depth")->click();
+        mHost->goToFrame(4);
+        const auto draw = [this](int y)
+        {
+            dragMouse(mHost->mCanvas, {{100.0, double(y)}, {150.0, double(y)}, {200.0, double(y)}});
+        };
+        draw(200);
+        QVERIFY(find<QAbstractButton>("panel.view.lit"));
+        find<QAbstractButton>("panel.view.lit")->click();
+        mWorker->mPut.clear();
+        // Another session: only the current frame has been sent.
+        Q_EMIT mHost->layersChanged();
+        QTRY_COMPARE(mWorker->mPut, QVector<int>{4});
+        mHost->goToFrame(2);
+        QTRY_COMPARE(mWorker->mPut, (QVector<int>{4, 2}));
+        mWorker->mPut.clear();
+        Q_EMIT mHost->layersChanged();
+        QTRY_COMPARE(mWorker->mPut, (QVector<int>{2, 4}));
+        QTest::qWait(20);
+        QCOMPARE(mWorker->mPut.size(), 2);
     }
 
     void pictureWaitsForItsBackground()
