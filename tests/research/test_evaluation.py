@@ -18,6 +18,7 @@ from lampblack_research.evaluation.evaluate import PEERS, evaluate
 from lampblack_research.evaluation.laigter import laigter_normals
 from lampblack_research.evaluation.lumo_mixed import lumo_mixed_normals
 from lampblack_research.evaluation.metrics import bootstrap, means, measure
+from lampblack_research.evaluation.surfaces import NetworkMethod
 from support.command_line import Run
 
 
@@ -124,3 +125,12 @@ def test_command_writes_the_figures_of_depth_too(run: Run, tmp_path: Path) -> No
     for column in ("recovered", "shadow_recall", "spots_cut"):
         assert column in rows["lumo"]
     assert run("evaluate", *models, *small, "--marks").code == 1
+
+
+def test_clicks_are_measured_for_networks_in_a_row_of_their_own(tmp_path: Path) -> None:
+    trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
+    methods = {"lampblack": NetworkMethod(None), "flat": PEERS["flat"]}
+    table = evaluate(tmp_path, None, methods, views=1, character_px=120, depth=True, clicks=True)
+    assert set(table) == {*methods, "lampblack, one click", *CEILINGS}
+    rmse = (table[name]["rmse"] for name in ("lampblack", "lampblack, one click"))
+    assert next(rmse) == pytest.approx(next(rmse), rel=0.05)

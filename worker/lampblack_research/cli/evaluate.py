@@ -87,6 +87,14 @@ def evaluate(
             "do to normals and surfaces.",
         ),
     ] = False,
+    clicks: Annotated[
+        bool,
+        typer.Option(
+            "--clicks",
+            help="With --depth: measure also the surfaces after the worst overlap of each "
+            "drawing is corrected with one click.",
+        ),
+    ] = False,
     as_json: Annotated[
         Path | None,
         typer.Option("--json", metavar="FILE", help="File to write the figures to, as JSON."),
@@ -104,8 +112,8 @@ def evaluate(
 
     Example: lampblack evaluate --models meshes/ --split val --json val.json
     """
-    if marks and not depth:
-        raise LampblackError("Marks are measured on surfaces.", "Add --depth.")
+    if (marks or clicks) and not depth:
+        raise LampblackError("Marks and clicks are measured on surfaces.", "Add --depth.")
     chosen = dict(_method(named) for named in methods.split(","))
     comparison = ComparisonSheet()
     with progress_bar() as bar:
@@ -120,6 +128,7 @@ def evaluate(
             most=most,
             depth=depth,
             marks=marks,
+            clicks=clicks,
             progress=lambda share: bar.update(task, completed=int(100 * share)),
             on_drawing=comparison.add if sheet else None,
         )

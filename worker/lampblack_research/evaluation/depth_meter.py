@@ -17,6 +17,7 @@ from .surfaces import (
     MAX_CHARACTER_PX,
     MeasuredSurface,
     Method,
+    NetworkMethod,
     Normals,
     surface_by,
     surface_of_height,
@@ -40,17 +41,19 @@ class DepthMeter:
     Args:
         character_px: longest side of the characters.
         marks: measure with marks too, which draws each drawing three times more.
+        clicks: measure networks also after one correct click a drawing, in rows of their own.
 
     Raises:
         LampblackError: the characters are so large that their surfaces are made smaller.
     """
 
-    def __init__(self, character_px: int, *, marks: bool = False) -> None:
+    def __init__(self, character_px: int, *, marks: bool = False, clicks: bool = False) -> None:
         if character_px > MAX_CHARACTER_PX:
             raise LampblackError(
                 f"Depth cannot be measured on characters of {character_px} pixels.",
                 f"Use --resolution {MAX_CHARACTER_PX} or less.",
             )
+        self._clicks = clicks
         self._marks = MARKS if marks else ()
         self._found: dict[str, dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
 
@@ -71,6 +74,11 @@ class DepthMeter:
         for name, method in methods.items():
             surface = surface_by(method, drawing.lines, drawing.mask, normals[name])
             note(name, surface)
+            if isinstance(method, NetworkMethod) and self._clicks:
+                note(
+                    f"{name}, one click",
+                    method.corrected(drawing.lines, drawing.mask, drawing.depth),
+                )
             if self._marks:
                 self._note(name, _with_marks(method, drawing, normals[name], surface.height))
         note(TRUE_NORMALS, surface_of_normals(drawing.truth, drawing.mask))

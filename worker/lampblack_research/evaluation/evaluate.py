@@ -52,6 +52,7 @@ def evaluate(
     most: int | None = None,
     depth: bool = False,
     marks: bool = False,
+    clicks: bool = False,
     progress: Callable[[float], None] = lambda share: None,
     on_drawing: Callable[[TestDrawing, dict[str, NDArray[np.float32]]], None] | None = None,
 ) -> dict[str, dict[str, float]]:
@@ -64,13 +65,14 @@ def evaluate(
         depth: measure the surfaces too (see ``DepthMeter``): more columns, and rows of its own
             with these columns only.
         marks: with ``depth``, measure also what hatching, stripes and spots do.
+        clicks: with ``depth``, measure also what one correct click a drawing does.
         on_drawing: called with each drawing and the normals of every method.
 
     Raises:
         LampblackError: no models are found, or none can be drawn.
     """
     paths = find_models(models, split)
-    meter = DepthMeter(character_px, marks=marks) if depth else None
+    meter = DepthMeter(character_px, marks=marks, clicks=clicks) if depth else None
     contenders = {name: Contender(method) for name, method in methods.items()}
     seen: list[str] = []
     total = min(len(paths) * views, most or len(paths) * views)

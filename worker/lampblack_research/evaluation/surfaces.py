@@ -17,9 +17,17 @@ from lampblack.drawing.palette import Palette, Swatch
 from lampblack.normals.card import load_network
 from lampblack.normals.predict import NormalPredictor
 from lampblack.pipeline import MAX_SURFACE_PX, Pipeline
-from lampblack.surface import Relief, build_relief, guided_filter, solve
+from lampblack.surface import (
+    Relief,
+    build_relief,
+    dividing_lines,
+    guided_filter,
+    solve,
+    solve_with_overlaps,
+)
 
 from ..dataset.gbuffer import MARGIN
+from .clicks import worst_overlap
 
 MAX_CHARACTER_PX = MAX_SURFACE_PX - 2 * MARGIN
 """Longest character whose surface is made at the size of the picture."""
@@ -63,6 +71,16 @@ class NetworkMethod:
         """The surface of the drawing."""
         prepared = self._pipeline.prepare(ink_drawing(lines, mask))
         return MeasuredSurface(prepared.height, prepared.relief())
+
+    def corrected(self, lines: Lines, mask: Mask, depth: NDArray[np.float32]) -> MeasuredSurface:
+        """The surface after one correct click (``worst_overlap``); ``depth`` is the truth."""
+        prediction = self._predictor.predict(lines, mask, grids=self._grids)
+        dividing = dividing_lines(lines, lines, mask)
+        height, overlaps = solve_with_overlaps(prediction, mask, dividing)
+        click = worst_overlap(overlaps, depth)
+        if click is not None:
+            height, _ = solve_with_overlaps(prediction, mask, dividing, (click,))
+        return surface_of_height(guided_filter(height, mask), mask)
 
 
 def surface_by(method: Method, lines: Lines, mask: Mask, normals: Normals) -> MeasuredSurface:
