@@ -69,6 +69,18 @@ def test_a_ring_of_ink_is_one_closed_stroke() -> None:
     assert np.abs(np.hypot(*(stroke.points - 100).T) - 58).max() < 1.5
 
 
+def test_a_stroke_bridges_a_small_gap_and_reaches_the_ink_it_points_at() -> None:
+    ink = np.zeros((100, 200), bool)
+    ink[50:53, 10:80] = ink[50:53, 83:170] = True
+    ink[20:90, 173:176] = True
+    bar, post = find_strokes(ink, 300.0)
+    if np.ptp(bar.points[:, 0]) < np.ptp(post.points[:, 0]):
+        bar, post = post, bar
+    assert np.ptp(bar.points[:, 0]) > 155
+    assert np.hypot(*np.diff(bar.points, axis=0).T).max() < 2.5
+    assert (bar.meets.count(True), post.meets) == (1, (False, False))
+
+
 @pytest.mark.parametrize("radius", [8.3, 40.0, 71.7])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_a_closed_cut_has_no_leak_and_lifts_what_it_encloses(radius: float, side: str) -> None:
@@ -131,6 +143,21 @@ def test_where_unsure_the_sides_are_joined(fault: str) -> None:
     height, overlaps = solve_with_overlaps(seen, mask, lines)
     assert not overlaps
     assert np.array_equal(height, solve(seen.normals, mask))
+
+
+def test_hatching_is_not_cut_even_where_the_network_errs() -> None:
+    """Short, parallel, free at both ends: its depth and its edges would do for an overlap."""
+    seen, mask, lines, _ = two_disks()
+    hatched = lines * 0
+    for column in range(70, 130, 6):
+        hatched[112:128, column : column + 2] = 1
+    rows = np.broadcast_to(np.arange(SIZE)[:, None], mask.shape)
+    wrong = Prediction(
+        seen.normals,
+        (np.broadcast_to(np.arange(SIZE) % 12 < 6, mask.shape) * STEP * mask).astype(np.float32),
+        (mask & (np.abs(rows - 120) < 12)).astype(np.float32),
+    )
+    assert not solve_with_overlaps(wrong, mask, hatched)[1]
 
 
 def test_an_open_end_joins_without_a_step() -> None:

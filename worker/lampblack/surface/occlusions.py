@@ -8,7 +8,7 @@ stripes, folds and hatching are strokes too: where unsure, the two sides stay jo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +27,13 @@ STEP = 0.012
 lower ones, borders of colours are cut."""
 STEP_GOES_ON = 0.006
 """The same where an occlusion goes on."""
-SHORTEST = 0.04
+SHORTEST = 0.03
 """Length of the shortest occlusion; share of the character's length."""
-SHORTEST_FREE = 0.08
+SHORTEST_FREE = 0.1
 """The same on strokes that are free at both ends, such as those of hatching and folds."""
+WIDER = 2.0
+"""Ink wider than this multiple of the drawing's usual line is no line, but a texture or a filled
+shape."""
 STEADY = 0.85
 """Length of the mean of a stroke's unit directions over ``STEADY_OVER`` either way, at least:
 rough textures turn more."""
@@ -89,24 +92,47 @@ def find_occlusions(
     found: list[Occlusion] = []
     reach, far = max(1, round(POOL * length)), max(1, round(STEADY_OVER * length))
     beside = np.array(BESIDE, np.float32) * np.float32(length)
-    for stroke in strokes:
-        if len(stroke.points) < SHORTEST * length:
-            continue
-        left = across(stroke.points, "left")
-        step, sure, known = _compare(
-            stroke.points, left, ink, order, edge, mask, beside, np.float32(WIDEST * length)
-        )
+    widest = np.float32(WIDEST * length)
+    long = [stroke for stroke in strokes if len(stroke.points) >= SHORTEST * length]
+    sides = [across(stroke.points, "left") for stroke in long]
+    compared = [
+        _compare(stroke.points, left, ink, order, edge, mask, beside, widest)
+        for stroke, left in zip(long, sides, strict=True)
+    ]
+    widths = [width for _, _, _, width in compared]
+    usual = float(np.median(np.concatenate(widths))) if widths else 0.0
+    for stroke, left, (step, sure, known, width) in zip(long, sides, compared, strict=True):
         step, sure = (mean_along(a, known, reach, closed=stroke.closed) for a in (step, sure))
         every = np.ones(len(known), bool)
         mean_left = [mean_along(a, every, far, closed=stroke.closed) for a in left.T]
-        clear = known & (sure > EDGE) & (np.hypot(*mean_left) > STEADY)
+        broad = mean_along(width, every, reach, closed=stroke.closed) > WIDER * usual + 1
+        clear = known & (sure > EDGE) & (np.hypot(*mean_left) > STEADY) & ~broad
         faint = sure > EDGE_GOES_ON
         share = step / np.float32(length)
-        sides: tuple[tuple[FrontSide, Floats], ...] = ("left", share), ("right", -share)
-        for front, ahead in sides:
+        both: tuple[tuple[FrontSide, Floats], ...] = ("left", share), ("right", -share)
+        for front, ahead in both:
             start, goes_on = clear & (ahead > STEP), faint & (ahead > STEP_GOES_ON)
             found += _runs(stroke, start, goes_on, known, front, length)
-    return found
+    return [_to_the_outline(occlusion, mask, length) for occlusion in found]
+
+
+def _to_the_outline(occlusion: Occlusion, mask: NDArray[np.bool_], length: float) -> Occlusion:
+    """The occlusion, extended through the outline's own ink where it ends there."""
+    points = occlusion.points
+    for end in (0, 1):
+        line = points if end else points[::-1]
+        if occlusion.open_ends[end] or len(line) < 2:
+            continue
+        back = line[-1 - min(len(line) - 1, 8)]
+        ahead = (line[-1] - back) / max(float(np.hypot(*(line[-1] - back))), 1e-6)
+        ray = line[-1] + np.arange(1, 2 * WIDEST * length + 2, dtype=np.float32)[:, None] * ahead
+        x, y = np.floor(ray).astype(int).T
+        seen = (x >= 0) & (y >= 0) & (x < mask.shape[1]) & (y < mask.shape[0])
+        inside = seen & mask[np.where(seen, y, 0), np.where(seen, x, 0)]
+        if not inside.all():
+            line = np.concatenate([line, ray[: int(np.argmin(inside)) + 1]])
+            points = line if end else line[::-1]
+    return replace(occlusion, points=points)
 
 
 def _runs(
@@ -157,12 +183,13 @@ def _compare(
     mask: NDArray[np.bool_],
     beside: Floats,
     widest: np.float32,
-) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+) -> tuple[Floats, Floats, NDArray[np.bool_], Floats]:
     """At each point of a stroke: the order on the left minus that on the right, both beyond the
-    ink; the largest edge on it and beside it; whether both sides are inside the character."""
+    ink; the largest edge on it and beside it; whether both sides are inside the character; the
+    width of the ink."""
     count = len(points)
     step, sure = np.zeros(count, np.float32), np.zeros(count, np.float32)
-    known = np.zeros(count, np.bool_)
+    known, width = np.zeros(count, np.bool_), np.zeros(count, np.float32)
     rows, columns = mask.shape
     for i in range(count):
         sides = np.zeros(2, np.float32)
@@ -175,6 +202,7 @@ def _compare(
                 if r < 0 or c < 0 or r >= rows or c >= columns or not ink[r, c]:
                     break
                 out += np.float32(0.5)
+            width[i] += out
             for more in beside:
                 r = int(np.floor(points[i, 1] + (out + more) * y))
                 c = int(np.floor(points[i, 0] + (out + more) * x))
@@ -192,4 +220,4 @@ def _compare(
         known[i] = seen[0] > 0 and seen[1] > 0
         if known[i]:
             step[i] = sides[0] / np.float32(seen[0]) - sides[1] / np.float32(seen[1])
-    return step, sure, known
+    return step, sure, known, width

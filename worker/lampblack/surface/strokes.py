@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
+from scipy.spatial import cKDTree
 
 from .thinning import junctions_of, thinned, trace_lines
 
@@ -23,6 +24,8 @@ STRAIGHT_ON = 0.7
 """Cosine of the largest turn of a stroke through a junction."""
 LOOK = 0.02
 """How far along a line its direction at a junction is taken; share of the length."""
+GAP = 0.02
+"""Largest gap that a stroke bridges; share of the length."""
 SMOOTH = 0.004
 """Points are averaged with those this near along the stroke; share of the length."""
 
@@ -67,13 +70,16 @@ def find_strokes(ink: NDArray[np.bool_], length: float) -> list[Stroke]:
         head = [centres[first - 1 : first]] if first > 0 else []
         tail = [centres[last - 1 : last]] if last > 0 else []
         lines[index] = np.concatenate([*head, lines[index], *tail]).astype(np.float32)
-    partner = _partners(lines, ends, kept, count, max(3, round(LOOK * length)))
+    look = max(3, round(LOOK * length))
+    partner = _partners(lines, ends, kept, count, look)
+    _bridge(lines, ends, looped, kept, partner, look, GAP * length)
     reach = max(1, round(SMOOTH * length))
-    return [
-        Stroke(_smoothed(points[:, ::-1] + 0.5, reach, closed), meets, closed)
-        for points, meets, closed in _joined(lines, ends, looped, kept, partner)
-        if len(points) > 2
-    ]
+    found = []
+    for points, meets, closed in _joined(lines, ends, looped, kept, partner):
+        if len(points) > 2:
+            smooth = _smoothed(_even(points[:, ::-1] + 0.5), reach, closed)
+            found.append(_reaching(Stroke(smooth, meets, closed), ink, GAP * length))
+    return found
 
 
 def mean_along(
@@ -129,6 +135,83 @@ def _partners(
             if not met and (turn < -STRAIGHT_ON or len(arms) == 2):
                 partner[arms[i]], partner[arms[j]] = arms[j], arms[i]
     return partner
+
+
+def _bridge(
+    lines: list[Floats],
+    ends: list[tuple[int, int]],
+    looped: NDArray[np.bool_],
+    kept: list[int],
+    partner: dict[tuple[int, int], tuple[int, int]],
+    look: int,
+    gap: float,
+) -> None:
+    """Make partners of free ends that point at each other over a small gap."""
+    free = [(i, e) for i in kept for e in (0, 1) if ends[i][e] < 0 and not looped[i]]
+    if len(free) < 2:
+        return
+    tips = np.array([lines[i][0 if e == 0 else -1] for i, e in free])
+    inner = np.array(
+        [
+            lines[i][min(look, len(lines[i]) - 1)] if e == 0 else lines[i][-1 - look :][0]
+            for i, e in free
+        ]
+    )
+    outward = (tips - inner) / np.maximum(np.hypot(*(tips - inner).T), 1e-6)[:, None]
+    pairs = cKDTree(tips).query_pairs(gap, output_type="ndarray")
+    order = np.argsort(np.hypot(*(tips[pairs[:, 0]] - tips[pairs[:, 1]]).T), kind="stable")
+    for i, j in pairs[order]:
+        across = (tips[j] - tips[i]) / max(float(np.hypot(*(tips[j] - tips[i]))), 1e-6)
+        aligned = min(outward[i] @ across, -(outward[j] @ across), -(outward[i] @ outward[j]))
+        met = free[i] in partner or free[j] in partner or free[i][0] == free[j][0]
+        if not met and aligned > STRAIGHT_ON:
+            partner[free[i]], partner[free[j]] = free[j], free[i]
+
+
+def _even(points: Floats) -> Floats:
+    """The same line, with points added where they are further apart than two pixels."""
+    apart = np.hypot(*np.diff(points, axis=0).T)
+    if not (apart > 2).any():
+        return points
+    along = np.concatenate([[0], np.cumsum(apart)])
+    extra = [np.linspace(a, b, int(b - a) + 1)[1:-1] for a, b in pairwise(along) if b - a > 2]
+    at = np.sort(np.concatenate([along, *extra]))
+    even: Floats = np.stack([np.interp(at, along, axis) for axis in points.T], axis=1)
+    return even.astype(np.float32)
+
+
+def _reaching(stroke: Stroke, ink: NDArray[np.bool_], gap: float) -> Stroke:
+    """The stroke, extended over a small gap to the ink that a free end points at."""
+    if stroke.closed:
+        return stroke
+    points, meets = stroke.points, list(stroke.meets)
+    for end in (0, 1):
+        line = points if end else points[::-1]
+        if not meets[end]:
+            ray = _ray_to_ink(line, ink, gap)
+            if len(ray):
+                line = np.concatenate([line, ray])
+                points, meets[end] = (line if end else line[::-1]), True
+    return Stroke(points, (meets[0], meets[1]), False)
+
+
+def _ray_to_ink(line: Floats, ink: NDArray[np.bool_], gap: float) -> Floats:
+    """Points from the end of a line straight on, into the first ink beyond its own; none if there
+    is no such ink within ``gap`` of its own."""
+    back = line[-1 - min(len(line) - 1, 8)]
+    ahead = (line[-1] - back) / max(float(np.hypot(*(line[-1] - back))), 1e-6)
+    far = np.arange(1, 2 * gap + 2, dtype=np.float32)
+    ray = line[-1] + far[:, None] * ahead
+    x, y = np.floor(ray).astype(int).T
+    seen = (x >= 0) & (y >= 0) & (x < ink.shape[1]) & (y < ink.shape[0])
+    drawn = np.zeros(len(ray), bool)
+    drawn[seen] = ink[y[seen], x[seen]]
+    own = int(np.argmin(drawn))  # where its own ink ends
+    hit = np.flatnonzero(drawn[own:])
+    if drawn.all() or own > gap or not len(hit) or hit[0] > gap:
+        own, hit = -2, np.zeros(1, np.intp)
+    reached: Floats = ray[: own + int(hit[0]) + 2].astype(np.float32)
+    return reached
 
 
 def _joined(
