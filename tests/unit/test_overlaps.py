@@ -73,7 +73,7 @@ def test_a_stroke_bridges_a_small_gap_and_reaches_the_ink_it_points_at() -> None
     ink = np.zeros((100, 200), bool)
     ink[50:53, 10:80] = ink[50:53, 83:170] = True
     ink[20:90, 173:176] = True
-    bar, post = find_strokes(ink, 300.0)
+    bar, post = find_strokes(ink, 400.0)
     if np.ptp(bar.points[:, 0]) < np.ptp(post.points[:, 0]):
         bar, post = post, bar
     assert np.ptp(bar.points[:, 0]) > 155
