@@ -9,12 +9,19 @@ namespace
 {
 
 constexpr double Notch = 1.5;
+constexpr double FirstNotch = 2; // what was found is a mean: steps are lower towards their ends
 constexpr double UsualAmount = 0.03;
 constexpr double LeastAmount = 0.005;
 
+/// 0 if no hint says it.
+double hintedAmount(const Scene& scene, const Cut& cut)
+{
+    return cut.hint >= 0 ? scene.depth.hints[cut.hint].amount : 0;
+}
+
 double amountOf(const Scene& scene, const Cut& cut, double side)
 {
-    const double hinted = cut.hint >= 0 ? scene.depth.hints[cut.hint].amount : 0;
+    const double hinted = hintedAmount(scene, cut);
     if (hinted > 0)
         return hinted;
     return cut.amount > 0 && side > 0 ? cut.amount / side : UsualAmount;
@@ -62,7 +69,8 @@ Scene withAmount(const Scene& scene, int frame, const Cut& cut, double amount)
 
 double furtherApart(const Scene& scene, const Cut& cut, double side)
 {
-    return std::min(1.0, amountOf(scene, cut, side) * Notch);
+    const double notch = hintedAmount(scene, cut) > 0 ? Notch : FirstNotch;
+    return std::min(1.0, amountOf(scene, cut, side) * notch);
 }
 
 double nearerTogether(const Scene& scene, const Cut& cut, double side)

@@ -148,9 +148,9 @@ private Q_SLOTS:
     void theMenuSaysTheRest()
     {
         choose({150, 50}, "apart");
-        QCOMPARE(hints()[0].amount, 1.5 * 10 / 400);
+        QCOMPARE(hints()[0].amount, 2.0 * 10 / 400);
         choose({150, 50}, "together");
-        QCOMPARE(hints()[0].amount, 10.0 / 400);
+        QCOMPARE(hints()[0].amount, 2.0 * 10 / 400 / 1.5);
         choose({150, 50}, "join");
         QCOMPARE(hints()[0].front, FrontSide::Joined);
         choose({150, 50}, "other_side");

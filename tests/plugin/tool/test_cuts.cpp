@@ -117,11 +117,12 @@ private Q_SLOTS:
     void stepsGrowAndShrinkFromWhatTheyAre()
     {
         const Cut arm = cutsAt(mScene, 3, {overlap(Arm)}).first();
-        QCOMPARE(furtherApart(mScene, arm, 240), 1.5 * 12 / 240);
+        QCOMPARE(furtherApart(mScene, arm, 240), 2.0 * 12 / 240);
         const Scene apart = withAmount(mScene, 3, arm, furtherApart(mScene, arm, 240));
         QCOMPARE(apart.depth.hints[0].front, arm.front);
         const Cut corrected = cutsAt(apart, 3, {})[0];
-        QCOMPARE(nearerTogether(apart, corrected, 240), 12.0 / 240);
+        QCOMPARE(furtherApart(apart, corrected, 240), 3.0 * 12 / 240);
+        QCOMPARE(nearerTogether(apart, corrected, 240), 2.0 * 12 / 240 / 1.5);
         Scene largest = withAmount(apart, 3, corrected, 0.9);
         QCOMPARE(furtherApart(largest, corrected, 240), 1.0);
         largest = withAmount(apart, 3, corrected, 0.006);
