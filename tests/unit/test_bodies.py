@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,10 +10,10 @@ import pytest
 from numpy.typing import NDArray
 
 from lampblack.drawing import Body, Drawing, DrawingPlanes, decompose_cel, decompose_drawing
-from lampblack.drawing.grouping import LayerKind, layer_kinds
+from lampblack.drawing.grouping import LayerKind, place_layers
 from lampblack.drawing.joints import joint_of
 from lampblack.scene import LayerBody
-from lampblack.shot import Cel, cropped_layer
+from lampblack.shot import Cel, CelLayer, cropped_layer
 from support.drawings import draw_capsule, layered_cel
 
 Picture = NDArray[np.uint8]
@@ -21,6 +22,12 @@ BODY = draw_capsule(SIZE, (115, 115), (115, 115), 75, (200, 110, 60))
 ARM = draw_capsule(SIZE, (70, 110), (215, 100), 16)
 INNER = draw_capsule(SIZE, (85, 110), (145, 110), 16)
 TOP = BODY.shape[0]
+
+
+def layer_kinds(
+    layers: Sequence[CelLayer], size: tuple[int, int], choices: Sequence[LayerBody] = ()
+) -> tuple[LayerKind, ...]:
+    return tuple(placed.kind for placed in place_layers(layers, size, choices))
 
 
 def shade(cover: float) -> Picture:
@@ -45,6 +52,7 @@ OVER_THE_BODY = {
     "a glaze that sticks out": (np.roll(shade(0.5), 60, axis=1), "below"),
     "the same shape again": (draw_capsule(SIZE, (115, 115), (115, 115), 76, (9, 99, 200)), "below"),
     "a tile beside it": (draw_capsule(SIZE, (206, 100), (206, 130), 18, line=0), "below"),
+    "a head": (draw_capsule(SIZE, (115, 50), (115, 50), 44), "below"),
     "something elsewhere": (draw_capsule(SIZE, (216, 196), (216, 196), 18), "own"),
 }
 

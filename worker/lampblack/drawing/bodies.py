@@ -15,7 +15,7 @@ from ..shot import Cel, CelLayer, Picture
 from ..warning_collector import collect_warnings
 from .decompose import decompose_drawing
 from .drawing import Body, Drawing
-from .grouping import LayerKind, layer_kinds
+from .grouping import Placed, place_layers
 from .morphology import Mask, from_nearest, near
 
 MARGIN = 8
@@ -31,17 +31,17 @@ def decompose_cel(cel: Cel, choices: Iterable[LayerBody] = ()) -> Drawing:
     no body has (blends along edges) go to the nearest one, so that the bodies cover the whole.
 
     Args:
-        choices: the artist's own, by the layers' names; see ``layer_kinds``.
+        choices: the artist's own, by the layers' names; see ``place_layers``.
 
     Raises, Warns: as ``decompose_drawing``.
     """
     whole = decompose_drawing(cel.pixels, mask=cel.mask, ink=cel.ink)
     if len(cel.layers) < 2:
         return whole
-    kinds = layer_kinds(cel.layers, whole.size, choices)
-    if kinds.count("own") < 2:
+    placed = place_layers(cel.layers, whole.size, choices)
+    if sum(layer.kind == "own" for layer in placed) < 2:
         return whole
-    sheets = [sheet for sheet in _sheets(cel.layers, kinds, whole.size) if sheet.painted.any()]
+    sheets = [sheet for sheet in _sheets(cel.layers, placed, whole.size) if sheet.painted.any()]
     bodies = [body for sheet in sheets if (body := _body(sheet, whole, cel)) is not None]
     return replace(whole, bodies=_covering(bodies, whole)) if len(bodies) > 1 else whole
 
@@ -64,19 +64,30 @@ class _Sheet:
         self.painted = self.painted | drawn
         self.line = self.line | drawn if line else self.line & ~(pixels[..., 3] >= 128)
 
+    def cover(self, pixels: Picture) -> None:
+        """Remove what ``pixels`` cover."""
+        covered = pixels[..., 3] >= 128
+        self.pixels = np.where(covered[..., None], np.uint8(0), self.pixels)
+        self.painted, self.line = self.painted & ~covered, self.line & ~covered
+
 
 def _sheets(
-    layers: Sequence[CelLayer], kinds: Sequence[LayerKind], size: tuple[int, int]
+    layers: Sequence[CelLayer], placed: Sequence[Placed], size: tuple[int, int]
 ) -> list[_Sheet]:
-    """The bodies' pictures, bottom first. What is part of the body below is shared out: each pixel
-    goes to the topmost body under it, or to the nearest."""
+    """The bodies' pictures, bottom first. What is part of the bodies below is shared out: each
+    pixel goes to the topmost body under it, or to the nearest. What goes into the picture of one
+    body covers those that lie on that body."""
     sheets: list[_Sheet] = []
     waiting: list[CelLayer] = []
-    for layer, kind in zip(layers, kinds, strict=True):
-        if kind == "flat":
+    for layer, place in zip(layers, placed, strict=True):
+        if place.kind == "flat":
             continue
         pixels = layer.placed(size)
-        if kind == "own":
+        if place.kind == "below" and place.body >= 0:
+            sheets[place.body].add(pixels, line=layer.line)
+            for sheet in sheets[place.body + 1 :]:
+                sheet.cover(pixels)
+        elif place.kind == "own":
             none = np.zeros(pixels.shape[:2], bool)
             sheets.append(_Sheet(layer.name, np.zeros_like(pixels), none, none))
             for part in (*waiting, layer):

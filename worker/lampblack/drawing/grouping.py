@@ -3,6 +3,10 @@
 Layers are told apart by how they overlap, at low resolution: shares are those of the layer's
 painted area, or of its outline. In doubt, a layer that looks like line or a touch-up is part of the
 body below, and a painted shape that sticks out is a body of its own.
+
+Unless the artist says so, only slender shapes are bodies of their own: an arm, a scarf. A head over
+a trunk, or a trunk over legs, goes into the picture of what it covers, where the network sees both.
+Two round bodies on one another would be as deep as both, and a drawn figure is flatter than that.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from ..shot import CelLayer, Picture
 from .cutout import cut_out
 from .ink import find_ink
 from .mask import is_line_art
-from .morphology import Mask, highest, lowest
+from .morphology import Mask, depth_within, highest, lowest
 from .shrink import shrunk
 
 LayerKind = Literal["own", "below", "flat"]
@@ -40,8 +44,24 @@ SHARED = 0.5
 DETAIL = 0.06
 """An outlined layer inside another, of less than this share of the other's area, is a detail: an
 eye, a button."""
+SLENDER = 0.4
+"""Up to this share of the width of the body that it covers, a layer is a body of its own."""
 NEAR = 2
 """Pixels, at low resolution, within which outlines are the same."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Where a layer belongs.
+
+    Attributes:
+        kind: as the artist would say it.
+        body: number of the body whose picture it goes into, bottom first; -1 if it is shared out
+            among those under it, or lies flat on them.
+    """
+
+    kind: LayerKind
+    body: int = -1
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +76,10 @@ class _Shape:
     outlined: bool
 
 
-def layer_kinds(
+def place_layers(
     layers: Sequence[CelLayer], size: tuple[int, int], choices: Iterable[LayerBody] = ()
-) -> tuple[LayerKind, ...]:
-    """The kind of each layer.
+) -> tuple[Placed, ...]:
+    """Where each layer belongs.
 
     Args:
         layers: bottom first.
@@ -68,20 +88,41 @@ def layer_kinds(
     """
     chosen = {choice.layer: choice.body for choice in choices}
     step = -(-max(size) // SMALL_PX)
-    kinds: list[LayerKind] = []
+    placed: list[Placed] = []
     below: list[_Shape] = []
+    bodies: list[Mask] = []
     for layer in layers:
         shape = _shape(layer, size, step)
         choice = chosen.get(layer.name, "auto")
         kind: LayerKind = choice if choice != "auto" else _kind(shape, below)
+        body = -1
         if kind == "own" and not shape.filled.any():
             kind = "below"
-        kinds.append(kind)
+        if kind == "own" and choice == "auto":
+            body = _covered(shape, bodies)
+        if kind == "own" and body < 0:
+            body = len(bodies)
+            bodies.append(shape.filled)
+        elif kind == "own":
+            kind = "below"
+            bodies[body] = bodies[body] | shape.filled
+        placed.append(Placed(kind, body))
         if kind != "flat":
             below.append(shape)
-    if "own" not in kinds and kinds:
-        kinds[next((i for i, kind in enumerate(kinds) if kind == "below"), 0)] = "own"
-    return tuple(kinds)
+    if not bodies and placed:
+        first = next((i for i, layer in enumerate(placed) if layer.kind == "below"), 0)
+        placed[first] = Placed("own", 0)
+    return tuple(placed)
+
+
+def _covered(shape: _Shape, bodies: Sequence[Mask]) -> int:
+    """The body that a layer covers most, if the layer is too wide to lie on it; otherwise -1."""
+    shared = [np.count_nonzero(shape.filled & body) for body in bodies]
+    if not any(shared):
+        return -1
+    most = int(np.argmax(shared))
+    widths = [float(depth_within(np.pad(area, 1)).max()) for area in (shape.filled, bodies[most])]
+    return most if widths[0] > SLENDER * widths[1] else -1
 
 
 def _kind(shape: _Shape, below: Sequence[_Shape]) -> LayerKind:
@@ -104,9 +145,13 @@ def _kind(shape: _Shape, below: Sequence[_Shape]) -> LayerKind:
 
 
 def _shape(layer: CelLayer, size: tuple[int, int], step: int) -> _Shape:
-    small = shrunk(layer.placed(size), step)
-    cover = small[..., 3]
-    painted = cover >= 128
+    rows, columns = (-(-side // step) for side in size[::-1])
+    top, left = layer.top // step, layer.left // step
+    around = (layer.top - top * step, 0), (layer.left - left * step, 0), (0, 0)
+    small = shrunk(np.pad(layer.pixels, around), step)
+    part = slice(top, top + len(small)), slice(left, left + small.shape[1])
+    painted = np.zeros((rows, columns), bool)
+    painted[part] = small[..., 3] >= 128
     line = layer.line or (bool(painted.any()) and is_line_art(painted))
     filled = np.asarray(ndimage.binary_fill_holes(painted)) if line else painted
     rim = filled & ~lowest(filled, 1)
@@ -114,16 +159,20 @@ def _shape(layer: CelLayer, size: tuple[int, int], step: int) -> _Shape:
     rim[[0, -1]] = False
     rim[:, [0, -1]] = False
     glaze = bool(layer.pixels[..., 3].max(initial=0) < GLAZE * 255)
-    outlined = not line and not glaze and _share(rim, _ink(small, NEAR)) >= OUTLINED
+    inked = np.zeros_like(painted)
+    if not line and not glaze:
+        inked[part] = _ink(np.pad(small, ((NEAR, NEAR), (NEAR, NEAR), (0, 0))))
+    outlined = _share(rim, highest(inked, NEAR)) >= OUTLINED
     return _Shape(painted, filled, rim, line, glaze, outlined)
 
 
-def _ink(small: Picture, reach: int) -> Mask:
-    """Pixels within ``reach`` of the layer's ink."""
+def _ink(framed: Picture) -> Mask:
+    """The layer's ink, without the empty frame around it, ``NEAR`` pixels wide."""
     try:
-        return highest(find_ink(cut_out(small)), reach)
+        found = find_ink(cut_out(framed))
     except DrawingError:
-        return np.zeros(small.shape[:2], bool)
+        found = np.zeros(framed.shape[:2], bool)
+    return found[NEAR:-NEAR, NEAR:-NEAR]
 
 
 def _share(places: Mask, area: Mask) -> float:

@@ -2,8 +2,8 @@
 
 Each body gets a *base*, a smooth surface under it. The base of the lowest is 0. That of each other
 body lies as low as it can while the body's back rests on what is below, and it is as smooth as the
-body is large: an arm is straight where it lies across a belly. Where the base is free, it goes on
-at the same level. At a joint, where the artist left the outline open, the body starts at the
+body is large: an arm is straight where it lies across a belly. Beyond that it falls back to the
+paper. At a joint, where the artist left the outline open, the body starts at the
 surface below. The front of a body lies above everything below it, so what is painted on top is on
 top.
 """
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,14 +21,20 @@ from scipy.sparse.linalg import spsolve
 
 from .relief import BACK_DEPTH, THICKNESS
 
-CELLS = 512
+CELLS = 1024
 """Cells along the longer side of the grid on which bodies are compared."""
-COARSE = 8
-"""Cells from one node of a base to the next."""
+NODES = 48
+"""Nodes of a base along its longer side."""
 GAP = 0.04
 """Space between a body and what it rests on; share of its width."""
+DEEPEST = 0.06
+"""The back of a deeper body sinks into what is below it: a figure is not as deep as all of its
+parts together. Share of the drawing's longer side."""
 STRAIGHT = 0.5
 """Bends of a base are longer than about this share of the body's longer side."""
+FALL = 0.2
+"""Beyond what it rests on, a body falls back to the paper over about this share of the drawing's
+longer side."""
 HELD = 1000.0
 """How much more the base heeds a joint than what it merely lies on."""
 _FIRM = 1e4
@@ -88,25 +94,33 @@ FLAT = Base(np.zeros((1, 1)), 0.0, 0.0, 1.0)
 def stack(sheets: Sequence[Sheet]) -> list[Base]:
     """The base of each body, bottom first."""
     grid = _Grid.around(sheets)
-    bases = [FLAT]
-    below = np.full(grid.shape, -np.inf)
-    _raise(below, grid.reduced(sheets[0]), FLAT, grid)
-    for sheet in sheets[1:]:
+    below = _Below(np.full(grid.shape, -np.inf), np.zeros(grid.shape, bool))
+    bases: list[Base] = []
+    for sheet in sheets:
         seen = grid.reduced(sheet)
-        base = _rest(sheet, seen, below, grid)
+        base = _rest(sheet, seen, below, grid) if bases else FLAT
         bases.append(base)
-        _raise(below, seen, base, grid)
+        below.add(seen, base, grid)
     return bases
 
 
 @dataclass(frozen=True, eq=False)
 class _Seen:
-    """A sheet on the common grid: the highest and lowest point of each cell."""
+    """A sheet on the cells of the common grid that it touches.
 
+    Attributes:
+        place: those cells.
+        highest, lowest: (r, c) its highest and lowest point in each.
+        joint: (r, c) as in the sheet.
+        inside, whole: (r, c) whether it is in a cell, and whether it fills it.
+    """
+
+    place: tuple[slice, slice]
     highest: NDArray[np.float64]
     lowest: NDArray[np.float64]
     joint: NDArray[np.float64]
     inside: Mask
+    whole: Mask
 
 
 @dataclass(frozen=True)
@@ -124,72 +138,102 @@ class _Grid:
         right = max(s.left + s.mask.shape[1] * s.scale for s in sheets)
         bottom = max(s.top + s.mask.shape[0] * s.scale for s in sheets)
         cell = max(*(s.scale for s in sheets), (right - left) / CELLS, (bottom - top) / CELLS)
-        rows, columns = (
-            (int(side // (cell * COARSE)) + 1) * COARSE for side in (bottom - top, right - left)
-        )
+        rows, columns = (int(side // cell) + 1 for side in (bottom - top, right - left))
         return _Grid(left, top, cell, (rows, columns))
+
+    @property
+    def longest(self) -> float:
+        """The longer side in pixels of the drawing."""
+        return self.cell * max(self.shape)
 
     def reduced(self, sheet: Sheet) -> _Seen:
         """``sheet`` on this grid."""
-        rows = self._cells(sheet.top - self.top, sheet.scale, sheet.mask.shape[0])
-        columns = self._cells(sheet.left - self.left, sheet.scale, sheet.mask.shape[1])
+        rows, first_row = self._cells(sheet.top - self.top, sheet.scale, sheet.mask.shape[0])
+        columns, first_column = self._cells(
+            sheet.left - self.left, sheet.scale, sheet.mask.shape[1]
+        )
 
-        def most(values: NDArray[np.floating], empty: float) -> NDArray[np.float64]:  # type: ignore[type-arg]
-            kept = np.where(sheet.mask, values, empty)
-            (r, first_row), (c, first_column) = (
-                np.unique(at, return_index=True) for at in (rows, columns)
-            )
-            kept = np.maximum.reduceat(kept, first_row, axis=0)
-            kept = np.maximum.reduceat(kept, first_column, axis=1)
-            whole = np.full(self.shape, empty, np.float64)
-            whole[np.ix_(r, c)] = kept
-            return whole
+        def most(values: NDArray[Any]) -> NDArray[Any]:
+            values = np.maximum.reduceat(values, first_row, axis=0)
+            return np.asarray(np.maximum.reduceat(values, first_column, axis=1))
 
-        highest = most(sheet.height, -np.inf)
-        lowest = -most(-sheet.height, -np.inf)
-        return _Seen(highest, lowest, most(sheet.joint, 0.0), np.isfinite(highest))
+        inside = most(sheet.mask)
+        return _Seen(
+            place=(rows, columns),
+            highest=most(np.where(sheet.mask, sheet.height, -np.inf)),
+            lowest=-most(np.where(sheet.mask, -sheet.height, -np.inf)),
+            joint=most(np.where(sheet.mask, sheet.joint, 0.0)),
+            inside=inside,
+            whole=inside & ~most(~sheet.mask),
+        )
 
-    def _cells(self, start: float, scale: float, count: int) -> NDArray[np.intp]:
-        return ((start + (np.arange(count) + 0.5) * scale) / self.cell).astype(np.intp)
+    def _cells(self, start: float, scale: float, count: int) -> tuple[slice, NDArray[np.intp]]:
+        """The cells that ``count`` elements touch, and the first element in each."""
+        cells = ((start + (np.arange(count) + 0.5) * scale) / self.cell).astype(np.intp)
+        first = np.flatnonzero(np.diff(cells, prepend=cells[0] - 1))
+        return slice(int(cells[0]), int(cells[-1]) + 1), first
 
-    def at_cells(self, base: Base) -> NDArray[np.float64]:
+    def base_at(self, base: Base, place: tuple[slice, slice]) -> NDArray[np.float64]:
         """The base in the middle of each cell."""
-        rows, columns = ((np.arange(size) + 0.5) * self.cell for size in self.shape)
-        x, y = np.meshgrid(columns + self.left, rows + self.top)
-        return base.at(x, y).astype(np.float64)
+        y, x = ((np.arange(at.start, at.stop) + 0.5) * self.cell for at in place)
+        return base.at(*np.meshgrid(x + self.left, y + self.top)).astype(np.float64)
 
 
-def _raise(below: NDArray[np.float64], seen: _Seen, base: Base, grid: _Grid) -> None:
-    """Put a body onto the surface ``below``."""
-    front = grid.at_cells(base) + np.where(seen.inside, seen.highest, 0)
-    below[seen.inside] = np.maximum(below, front)[seen.inside]
+@dataclass(frozen=True, eq=False)
+class _Below:
+    """The surface of the bodies so far: their highest point in each cell, and cells that one of
+    them fills."""
+
+    level: NDArray[np.float64]
+    whole: Mask
+
+    def add(self, seen: _Seen, base: Base, grid: _Grid) -> None:
+        """Put a body on top."""
+        front = grid.base_at(base, seen.place) + np.where(seen.inside, seen.highest, -np.inf)
+        self.level[seen.place] = np.maximum(self.level[seen.place], front)
+        self.whole[seen.place] |= seen.whole
 
 
-def _rest(sheet: Sheet, seen: _Seen, below: NDArray[np.float64], grid: _Grid) -> Base:
-    """The base of a body that rests on the surface ``below``."""
-    over = seen.inside & np.isfinite(below)
+def _rest(sheet: Sheet, seen: _Seen, below: _Below, grid: _Grid) -> Base:
+    """The base of a body that rests on the bodies ``below``."""
+    # Bodies that only meet share cells along their edge.
+    over = seen.inside & below.whole[seen.place]
     if not over.any():
         return FLAT
-    ground = np.where(over, below, 0)
+    ground = np.where(over, below.level[seen.place], 0)
     highest, lowest = (np.where(over, plane, 0) for plane in (seen.highest, seen.lowest))
     visible = ground - lowest + THICKNESS
-    resting = ground + np.maximum(BACK_DEPTH * highest, -lowest) + THICKNESS + GAP * sheet.width
+    back = np.minimum(BACK_DEPTH * highest, DEEPEST * grid.longest)
+    resting = ground + np.maximum(back, -lowest) + THICKNESS + GAP * sheet.width
     least = np.where(over, resting + seen.joint * (visible - resting), -np.inf)
 
-    rows, columns = grid.shape[0] // COARSE, grid.shape[1] // COARSE
-    blocks = least.reshape(rows, COARSE, columns, COARSE)
-    inside = seen.inside.reshape(rows, COARSE, columns, COARSE).any(axis=(1, 3))
+    step = max(4, -(-max(over.shape) // NODES))
     heed = np.where(over, 1 + HELD * seen.joint, 0)
-    share = heed.reshape(rows, COARSE, columns, COARSE).mean(axis=(1, 3))
-    total = heed * np.where(over, least, 0)
-    total = total.reshape(rows, COARSE, columns, COARSE).mean(axis=(1, 3))
-    used, bound = _around(inside, 0), _around(blocks.max(axis=(1, 3)), -np.inf)
-    weight, pull = (_around(plane, 0.0, np.add) for plane in (share, total))
-    longest = max(sheet.mask.shape) * sheet.scale / (COARSE * grid.cell)
+    used = _around(_blocks(seen.inside, step, 0).any(axis=2), 0)
+    bound = _around(_blocks(least, step, -np.inf).max(axis=2), -np.inf)
+    weight = _around(_blocks(heed, step, 0).mean(axis=2), 0.0, np.add)
+    towards = heed * np.where(over, least, 0)
+    pull = _around(_blocks(towards, step, 0).mean(axis=2), 0.0, np.add)
+    spacing = step * grid.cell
+    length = STRAIGHT * max(over.shape) / step
+    # Beyond what it lies on, the paper pulls too.
+    paper = (length * spacing / (FALL * grid.longest)) ** 2
+    weight += paper * np.clip(1 - weight, 0, 1)
     nodes = np.zeros(used.shape)
-    nodes[used] = _settled(used, bound[used], weight[used], pull[used], STRAIGHT * longest)
+    nodes[used] = _settled(used, bound[used], weight[used], pull[used], length)
     nodes = _continued(_lifted(nodes, used, bound), used)
-    return Base(nodes, grid.left, grid.top, COARSE * grid.cell)
+    rows, columns = seen.place
+    left, top = grid.left + columns.start * grid.cell, grid.top + rows.start * grid.cell
+    return Base(nodes, left, top, spacing)
+
+
+def _blocks(cells: NDArray[Sample], step: int, empty: float) -> NDArray[Sample]:
+    """(R, C, step * step) blocks of cells."""
+    rows, columns = (-(-side // step) for side in cells.shape)
+    more = [(0, n * step - side) for n, side in zip((rows, columns), cells.shape, strict=True)]
+    framed = np.pad(cells, more, constant_values=empty)
+    split = framed.reshape(rows, step, columns, step).swapaxes(1, 2)
+    return np.asarray(split.reshape(rows, columns, step * step))
 
 
 def _around(blocks: NDArray[Sample], empty: float, join: np.ufunc = np.maximum) -> NDArray[Sample]:
