@@ -12,7 +12,14 @@ from scipy import ndimage
 from lampblack.choices import FrontSide
 from lampblack.normals.prediction import Prediction, pack_order, unpack_order
 from lampblack.scene import DepthHint, DepthPoint
-from lampblack.surface import build_relief, check_relief, dividing_lines, solve, solve_with_overlaps
+from lampblack.surface import (
+    build_relief,
+    check_relief,
+    dividing_lines,
+    overlap_votes,
+    solve,
+    solve_with_overlaps,
+)
 from lampblack.surface.cuts import Cuts, across
 from lampblack.surface.direct import Prior, inflate_direct
 from lampblack.surface.overlap import Overlap, pack_overlaps, unpack_overlaps
@@ -286,3 +293,19 @@ def test_hints_beyond_the_drawing_do_nothing() -> None:
     wild = [hint(rim() * 1e30, "left"), hint(rim() * 0, "right"), hint(rim()[:0], "left")]
     height, _ = solve_with_overlaps(seen, mask, lines, wild)
     assert np.array_equal(height, solve_with_overlaps(seen, mask, lines)[0])
+
+
+def test_the_votes_of_several_drawings_decide() -> None:
+    """Each votes for the side that it has in front. What most of them do not show stays joined."""
+    seen, mask, lines, _ = two_disks()
+    votes = overlap_votes(seen, mask, lines)
+    rows, columns = np.nonzero(votes.any(axis=2))
+    outward = np.stack([columns - 99.5, 119.5 - rows], axis=1)
+    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+    assert np.einsum("nc,nc->n", outward, votes[rows, columns]).mean() < -0.95
+    assert np.abs(np.hypot(rows - 119.5, columns - 99.5) - 44).max() < 6
+    assert solve_with_overlaps(replace(seen, votes=0.6 * votes), mask, lines)[1]
+    assert not solve_with_overlaps(replace(seen, votes=0.4 * votes), mask, lines)[1]
+    assert not solve_with_overlaps(replace(seen, votes=0 * votes), mask, lines)[1]
+    swapped, _ = solve_with_overlaps(replace(seen, votes=-votes), mask, lines)
+    assert lifted(swapped, mask) < -0.01 * SIZE

@@ -246,7 +246,8 @@ def test_depth_and_edges_are_averaged_and_constants_of_depth_are_not() -> None:
         noisy = (depth + np.where(rows < 80, error, 0) + 30 * (index - 2)) * mask
         edge = np.where(index == 2, 0.2, 0.7) * mask
         normals = bowl(mask)
-        order = np.dstack([noisy, edge]).astype(np.float32)
+        votes = np.dstack([0 * mask, mask if index != 2 else 0 * mask])  # the side above
+        order = np.dstack([votes, noisy, edge]).astype(np.float32)
         colour = np.ones((*mask.shape, 3), np.float32)
         mini = make_thumbnail(str(index), lines, mask > 0, colour, normals, order)
         seen = Prediction(normals, noisy.astype(np.float32), edge.astype(np.float32))
@@ -264,4 +265,6 @@ def test_depth_and_edges_are_averaged_and_constants_of_depth_are_not() -> None:
     assert abs(step + 20) < 0.5 * abs(raw + 20)
     assert 0.4 < found.edge[inner].mean() < 0.65
     assert not found.depth[~mask].any()
+    assert found.votes is not None
+    assert found.votes[inner].mean(axis=0) == pytest.approx([0, 0.8], abs=0.1)
     assert np.array_equal(found.normals, TemporalFilter().smooth(seen.normals, mask, here, around))

@@ -31,7 +31,14 @@ from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, fram
 from .render.light_pass_cache import LightPassCache
 from .scene import DepthHint, LayerBody, Scene
 from .stacked import seen_height, seen_normals, seen_overlaps, stack_bodies
-from .surface import Overlap, dividing_lines, guided_filter, solve, solve_with_overlaps
+from .surface import (
+    Overlap,
+    dividing_lines,
+    guided_filter,
+    overlap_votes,
+    solve,
+    solve_with_overlaps,
+)
 from .surface.overlap import pack_overlaps, unpack_overlaps
 
 MAX_SURFACE_PX = 2048
@@ -431,7 +438,10 @@ def surface_step(drawing: Drawing) -> int:
 
 def _thumbnail(drawing: Drawing, prediction: Prediction) -> RegistrationThumbnail:
     normals, depth, edge = prediction.normals, prediction.depth, prediction.edge
-    order = None if depth is None or edge is None else np.dstack([depth, edge])
+    order = None
+    if depth is not None and edge is not None:
+        lines = dividing_lines(drawing.lines, drawing.ink, drawing.mask)
+        order = np.dstack([overlap_votes(prediction, drawing.mask, lines), depth, edge])
     name = digest_of(drawing.lines, drawing.mask, drawing.albedo, normals)
     return make_thumbnail(name, drawing.lines, drawing.mask, drawing.albedo, normals, order)
 
@@ -450,12 +460,12 @@ def _shrink(
     middle = block_middles(mask, step)[:rows, :columns]
     length = np.maximum(np.linalg.norm(pooled, axis=2, keepdims=True), 1e-6)
     normals = (pooled / length * middle[..., None]).astype(np.float32)
-    depth, edge = (
+    depth, edge, votes = (
         None if plane is None else block_middles(plane, step)[:rows, :columns]
-        for plane in (prediction.depth, prediction.edge)
+        for plane in (prediction.depth, prediction.edge, prediction.votes)
     )
     depth = None if depth is None else depth / np.float32(step)
-    return Prediction(normals, depth, edge), middle, darkest
+    return Prediction(normals, depth, edge, votes), middle, darkest
 
 
 def _halved(drawing: Drawing) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:

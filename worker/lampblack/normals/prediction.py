@@ -24,11 +24,15 @@ class Prediction:
             an occlusion apart. None: the network predicts none.
         edge: (H, W) float32, 0 to 1: how likely the pixel lies at an occlusion, on either side
             of it; 0 outside the mask. None where ``depth`` is.
+        votes: (H, W, 2) float32 x right, y up: near an overlap, the direction to the side in
+            front; its length is the share of this and the neighbouring drawings that show the
+            overlap. None: there are no neighbours.
     """
 
     normals: NDArray[np.float32]
     depth: NDArray[np.float32] | None = None
     edge: NDArray[np.float32] | None = None
+    votes: NDArray[np.float32] | None = None
 
 
 def pack_order(prediction: Prediction, mask: NDArray[np.bool_]) -> NDArray[np.float32]:

@@ -3,7 +3,7 @@
 from .depth_picture import depth_picture, full_size
 from .export import save_mesh
 from .guided import guided_filter
-from .inflate_overlaps import dividing_lines, solve_with_overlaps
+from .inflate_overlaps import dividing_lines, overlap_votes, solve_with_overlaps
 from .overlap import Overlap
 from .relief import Relief, build_relief, check_relief, joined_reliefs
 from .solver import Solver, solve
@@ -23,6 +23,7 @@ __all__ = [
     "full_size",
     "guided_filter",
     "joined_reliefs",
+    "overlap_votes",
     "save_mesh",
     "solve",
     "solve_with_overlaps",

@@ -23,7 +23,7 @@ from .hinted import apply_hints
 from .occlusions import Occlusion, find_occlusions
 from .overlap import Overlap
 from .solver import rest_on_border, solve, usable_normals
-from .strokes import find_strokes, mean_along
+from .strokes import Stroke, find_strokes, mean_along
 
 SMALL_PX = 500
 """Longest side, about, of a character where only steps are wanted."""
@@ -44,6 +44,9 @@ TAPER = 0.04
 """A step falls to 0 over this distance from an end where its sides join; share of the length."""
 POOL = 0.01
 """Steps are averaged over this share of the length, either way along an occlusion."""
+VOTES_REACH = 0.012
+"""A drawing votes this far around its overlaps, since those of others lie a little beside; share of
+the length."""
 ROUGH = 1e-2
 """Tolerance of the solver where only steps are wanted."""
 
@@ -89,15 +92,8 @@ def solve_with_overlaps(
     depth, edge = prediction.depth, prediction.edge
     if not mask.any() or ((depth is None or edge is None) and not hints):
         return solve(prediction.normals, mask), []
+    small = _small_of(prediction, mask, lines)
     normals = usable_normals(prediction.normals, mask)
-    unknown = np.zeros(mask.shape, np.float32)
-    small = _small(
-        normals,
-        unknown if depth is None else depth,
-        unknown if edge is None else edge,
-        mask,
-        lines,
-    )
     cuts, overlaps = Cuts.none(mask.shape), []
     for occlusion, small_steps in _steps(small, hints):
         points, steps = small.on_canvas(occlusion.points), small_steps * small.by
@@ -107,6 +103,33 @@ def solve_with_overlaps(
     overlaps.sort(key=lambda overlap: len(overlap.points), reverse=True)
     height = inflate_direct(normals, mask, cuts if overlaps else None)
     return rest_on_border(height, mask), overlaps
+
+
+def overlap_votes(
+    prediction: Prediction, mask: NDArray[np.bool_], lines: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """(H, W, 2) float32, what a drawing votes for: see ``Prediction``. Arguments as for
+    ``solve_with_overlaps``."""
+    votes = np.zeros((*mask.shape, 2), np.float32)
+    if prediction.depth is None or prediction.edge is None or not mask.any():
+        return votes
+    small = _small_of(replace(prediction, votes=None), mask, lines)
+    found, _ = _occlusions(small)
+    if not found:
+        return votes
+    points = np.concatenate([occlusion.points for occlusion in found])
+    towards = np.concatenate([occlusion.towards for occlusion in found])
+    column, row = np.floor(points).astype(int).T
+    drawn = np.zeros((*small.mask.shape, 2), np.float32)
+    seen = (row >= 0) & (column >= 0) & (row < drawn.shape[0]) & (column < drawn.shape[1])
+    drawn[row[seen], column[seen]] = towards[seen] * np.array([1, -1], np.float32)
+    distance, nearest = ndimage.distance_transform_edt(~drawn.any(axis=2), return_indices=True)
+    drawn = drawn[tuple(nearest)] * (distance <= VOTES_REACH * small.length)[..., None]
+    whole = drawn.repeat(small.by, axis=0).repeat(small.by, axis=1)
+    top, left = small.corner
+    area = votes[top : top + whole.shape[0], left : left + whole.shape[1]]
+    area[:] = whole[: area.shape[0], : area.shape[1]]
+    return votes * mask[..., None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +145,7 @@ class _Small:
     depth: Floats
     edge: Floats
     ink: NDArray[np.bool_]
+    votes: Floats | None
 
     def of_canvas(self, hint: DepthHint) -> DepthHint:
         """A hint, in pixels of this."""
@@ -135,9 +159,7 @@ class _Small:
         return found
 
 
-def _small(
-    normals: Floats, depth: Floats, edge: Floats, mask: NDArray[np.bool_], lines: Floats
-) -> _Small:
+def _small_of(prediction: Prediction, mask: NDArray[np.bool_], lines: Floats) -> _Small:
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     top, left = int(rows[0]), int(columns[0])
     sides = int(rows[-1]) + 1 - top, int(columns[-1]) + 1 - left
@@ -153,25 +175,42 @@ def _small(
     share = blocks(mask).mean(axis=(1, 3), dtype=np.float32)
     inside = share >= min(0.5, float(share.max()))
     covered = np.maximum(share, 1e-6)
+    unknown = np.zeros(mask.shape, np.float32)
+    depth = unknown if prediction.depth is None else prediction.depth
+    edge = unknown if prediction.edge is None else prediction.edge
+    votes = prediction.votes
     return _Small(
         corner=(top, left),
         by=by,
         length=max(sides) / by,
-        normals=usable_normals(blocks(normals).mean(axis=(1, 3)), inside),
+        normals=usable_normals(blocks(prediction.normals).mean(axis=(1, 3)), inside),
         mask=inside,
         depth=blocks(depth).mean(axis=(1, 3)) / covered / np.float32(by),
         edge=blocks(edge).mean(axis=(1, 3)) / covered,
         ink=(blocks(lines).max(axis=(1, 3)) > INK) & inside,
+        votes=None if votes is None else blocks(votes).mean(axis=(1, 3)),
+    )
+
+
+def _occlusions(small: _Small) -> tuple[list[Occlusion], list[Stroke]]:
+    """The occlusions, and the strokes that they are parts of."""
+    strokes = find_strokes(small.ink, small.length)
+    if not strokes:
+        return [], []
+    order = small.depth
+    if small.votes is None:
+        order = order + inflate_direct(small.normals, small.mask, tolerance=ROUGH)
+    return (
+        find_occlusions(
+            strokes, small.ink, order, small.edge, small.mask, small.length, small.votes
+        ),
+        strokes,
     )
 
 
 def _steps(small: _Small, hints: Sequence[DepthHint]) -> list[tuple[Occlusion, Floats]]:
     """The occlusions and the steps along them, in pixels of ``small``."""
-    strokes = find_strokes(small.ink, small.length)
-    if not strokes and not hints:
-        return []
-    order = small.depth + inflate_direct(small.normals, small.mask, tolerance=ROUGH)
-    found = find_occlusions(strokes, small.ink, order, small.edge, small.mask, small.length)
+    found, strokes = _occlusions(small)
     inside = [small.of_canvas(hint) for hint in hints]
     found = apply_hints(found, strokes, inside, small.mask, small.length)
     if not found:

@@ -31,6 +31,8 @@ SHORTEST = 0.03
 """Length of the shortest occlusion; share of the character's length."""
 SHORTEST_FREE = 0.1
 """The same on strokes that are free at both ends, such as those of hatching and folds."""
+MAJORITY, MINORITY = 0.5, 0.25
+"""Share of the votes from which on an occlusion is one, and goes on."""
 WIDER = 2.0
 """Ink wider than this multiple of the drawing's usual line is no line, but a texture or a filled
 shape."""
@@ -80,6 +82,7 @@ def find_occlusions(
     edge: Floats,
     mask: NDArray[np.bool_],
     length: float,
+    votes: Floats | None = None,
 ) -> list[Occlusion]:
     """The parts of ``strokes`` that are occlusions.
 
@@ -88,6 +91,8 @@ def find_occlusions(
         order: (H, W) float32 pixels; what is nearer is higher.
         edge: (H, W) float32, 0 to 1, how likely an occlusion is near.
         mask: (H, W) bool, the character. length: of the character, in pixels.
+        votes: (H, W, 2) float32, as of ``Prediction``: they decide, instead of what is found in
+            this drawing alone.
     """
     found: list[Occlusion] = []
     reach, far = max(1, round(POOL * length)), max(1, round(STEADY_OVER * length))
@@ -109,11 +114,28 @@ def find_occlusions(
         clear = known & (sure > EDGE) & (np.hypot(*mean_left) > STEADY) & ~broad
         faint = sure > EDGE_GOES_ON
         share = step / np.float32(length)
+        if votes is not None:
+            share, clear, faint = _voted(stroke, left, votes, reach)
+            clear &= known
         both: tuple[tuple[FrontSide, Floats], ...] = ("left", share), ("right", -share)
         for front, ahead in both:
             start, goes_on = clear & (ahead > STEP), faint & (ahead > STEP_GOES_ON)
             found += _runs(stroke, start, goes_on, known, front, length)
     return [_to_the_outline(occlusion, mask, length) for occlusion in found]
+
+
+def _voted(
+    stroke: Stroke, left: Floats, votes: Floats, reach: int
+) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+    """The vote for the left side at each point, at the scale of ``STEP``, and where a majority and
+    a minority are for either side."""
+    x, y = np.floor(stroke.points).astype(int).T
+    row, column = np.clip(y, 0, votes.shape[0] - 1), np.clip(x, 0, votes.shape[1] - 1)
+    across_left, up_left = left[:, 0], -left[:, 1]
+    count = votes[row, column, 0] * across_left + votes[row, column, 1] * up_left
+    every = np.ones(len(count), bool)
+    count = mean_along(count, every, reach, closed=stroke.closed)
+    return np.sign(count), np.abs(count) > MAJORITY, np.abs(count) > MINORITY
 
 
 def _to_the_outline(occlusion: Occlusion, mask: NDArray[np.bool_], length: float) -> Occlusion:

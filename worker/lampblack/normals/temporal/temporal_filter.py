@@ -89,7 +89,7 @@ class TemporalFilter:
         neighbours: Neighbours,
     ) -> Prediction:
         """Average one drawing's prediction with its neighbours': the normals as by ``smooth``, and
-        if all thumbnails have them, depth and edge."""
+        if all thumbnails have them, depth, edge and votes."""
         changed = self._change(here, neighbours)
         correction, place = here.window.to_canvas(changed, mask.shape)
         inside = mask[place]
@@ -98,19 +98,22 @@ class TemporalFilter:
         normals = prediction.normals.copy()
         normals[place][inside] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
         depth, edge = prediction.depth, prediction.edge
-        if depth is None or edge is None or len(changed) < 5:
+        if depth is None or edge is None or here.order is None or len(changed) < 7:
             return Prediction(normals, depth, edge)
         depth, edge = depth.copy(), edge.copy()
-        depth[place][inside] += correction[inside][:, 3]
-        edge[place][inside] += correction[inside][:, 4]
-        return Prediction(normals, depth, edge)
+        depth[place][inside] += correction[inside][:, 5]
+        edge[place][inside] += correction[inside][:, 6]
+        votes = np.zeros((*mask.shape, 2), np.float32)
+        counted, _ = here.window.to_canvas(here.order[:2] + changed[3:5], mask.shape)
+        votes[place] = counted * inside[..., None]
+        return Prediction(normals, depth, edge, votes)
 
     def change(self, here: RegistrationThumbnail, neighbours: Neighbours) -> Planes:
         """(3, h, w) float32: the mean minus ``here.vectors``, on the fine grid."""
         return self._change(here, neighbours)[:3]
 
     def _change(self, here: RegistrationThumbnail, neighbours: Neighbours) -> Planes:
-        """``change``, and if all have it that of ``order``: (5, h, w)."""
+        """``change``, and if all have it that of ``order``: (7, h, w)."""
         everyone = (here, *neighbours.before[:REACH], *neighbours.after[:REACH])
         ordered = all(drawing.order is not None for drawing in everyone)
         mine = _planes(here, ordered)
@@ -124,7 +127,7 @@ class TemporalFilter:
                 planes, trust = _warped(far, seen.fine(), ordered)
                 change = planes - mine
                 # Depths are known but for a constant.
-                change[3:4] -= (trust * change[3:4]).sum() / max(float(trust.sum()), 1e-6)
+                change[5:6] -= (trust * change[5:6]).sum() / max(float(trust.sum()), 1e-6)
                 summed += trust * change
                 weights += trust
         changed: Planes = summed / weights
@@ -163,11 +166,14 @@ def warped_normals(
 def _warped(
     other: RegistrationThumbnail, seen: Registration, ordered: bool
 ) -> tuple[Planes, NDArray[np.float32]]:
-    """``warped_normals``, and if ``ordered`` the other's order below them: (5, h, w)."""
+    """``warped_normals``, and if ``ordered`` the other's order below them: (7, h, w)."""
     planes = sampled(np.concatenate([other.inside[None], _planes(other, ordered)]), seen.places)
     turn = seen.turn()
     cos, sin = np.cos(turn), np.sin(turn)
     inside, x, y, z, *order = planes
+    if ordered:
+        across, up, *_ = order
+        order[:2] = cos * across + sin * up, cos * up - sin * across
     warped = np.stack([cos * x + sin * y, cos * y - sin * x, z, *order])
     return warped, seen.trust * (inside > 0.5)
 

@@ -26,8 +26,9 @@ class RegistrationThumbnail:
         vectors: (3, 2h, 2w) float32, fine grid: predicted normals, x right, y up, z to the
             viewer.
         inside: (2h, 2w) float32, fine grid: share of the cell that the character covers.
-        order: (2, 2h, 2w) float32, fine grid: predicted depth in pixels of the drawing, and how
-            likely an occlusion is; None where they are not known.
+        order: (4, 2h, 2w) float32, fine grid: the drawing's votes on overlaps, x right, y up,
+            predicted depth in pixels of the drawing, and how likely an occlusion is; None where
+            they are not known.
     """
 
     name: str
@@ -54,7 +55,7 @@ def make_thumbnail(
         lines: (H, W) float32 ink in 0..1. mask: (H, W) bool, not empty.
         albedo: (H, W, 3) float32 sRGB in 0..1.
         normals: (H, W, 3) float32, unit in the mask, 0 outside.
-        order: (H, W, 2) float32 depth and edge, 0 outside the mask.
+        order: (H, W, 4) float32 votes, depth and edge, 0 outside the mask.
     """
     window = window_around(mask)
     inside = mask[..., None].astype(np.float32)
