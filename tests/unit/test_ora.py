@@ -12,6 +12,7 @@ from lampblack.errors import LampblackWarning, ProjectError
 from lampblack.project import read_project
 from lampblack.project.shot import ProjectShot
 from lampblack.project.stack import Roles
+from lampblack.shot import MAX_LAYERS
 from support.projects import png
 
 
@@ -90,3 +91,30 @@ def test_other_ways_of_blending_are_told(tmp_path: Path) -> None:
     stack = '<layer name="shade" src="data/r.png" composite-op="svg:multiply"/>'
     with pytest.warns(LampblackWarning, match="shade"):
         shot_of(write_ora(tmp_path, stack))
+
+
+def test_lit_layers_are_kept_apart(tmp_path: Path) -> None:
+    stack = (
+        '<layer name="line" src="data/r.png" x="4" y="5"/>'
+        '<stack x="2" y="1" opacity="0.5"><layer name="fill" src="data/g.png" x="8" y="4"/></stack>'
+        '<layer name="away" src="data/b.png" x="-10"/>'
+        '<layer name="hidden" src="data/b.png" visibility="hidden"/>'
+    )
+    path = write_ora(tmp_path, stack)
+    shot = shot_of(path, {"line": "line"} | dict.fromkeys(("fill", "away"), "character"))
+    cel = shot.cel(shot.frames[0])
+    assert [(layer.name, layer.left, layer.top) for layer in cel.layers] == [
+        ("fill", 10, 5),
+        ("line", 4, 5),
+    ]
+    assert [layer.line for layer in cel.layers] == [False, True]
+    assert (cel.layers[0].pixels == (0, 200, 0, 128)).all()
+    assert (cel.layers[1].pixels == (200, 0, 0, 255)).all()
+    assert shot_of(path, {"fill": "character"}).cel(shot.frames[0]).layers == ()
+
+
+def test_very_many_layers_are_lit_as_one(tmp_path: Path) -> None:
+    for count in (MAX_LAYERS, MAX_LAYERS + 1):
+        stack = "".join(f'<layer name="{n}" src="data/r.png" x="{n}"/>' for n in range(count))
+        shot = shot_of(write_ora(tmp_path, stack))
+        assert len(shot.cel(shot.frames[0]).layers) == (count if count == MAX_LAYERS else 0)

@@ -17,7 +17,7 @@ Sample = TypeVar("Sample", np.uint8, np.float32)
 
 
 MAX_LAYERS = 16
-"""Layers of a cel that are kept apart."""
+"""Layers of a cel that are kept apart. With more, the cel is lit as one body."""
 
 
 @dataclass(frozen=True, eq=False)

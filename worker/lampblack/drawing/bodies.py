@@ -67,7 +67,7 @@ class _Sheet:
     def cover(self, pixels: Picture) -> None:
         """Remove what ``pixels`` cover."""
         covered = pixels[..., 3] >= 128
-        self.pixels = np.where(covered[..., None], np.uint8(0), self.pixels)
+        self.pixels[covered] = 0
         self.painted, self.line = self.painted & ~covered, self.line & ~covered
 
 

@@ -121,8 +121,12 @@ def _covered(shape: _Shape, bodies: Sequence[Mask]) -> int:
     if not any(shared):
         return -1
     most = int(np.argmax(shared))
-    widths = [float(depth_within(np.pad(area, 1)).max()) for area in (shape.filled, bodies[most])]
-    return most if widths[0] > SLENDER * widths[1] else -1
+    return most if _width(shape.filled) > SLENDER * _width(bodies[most]) else -1
+
+
+def _width(area: Mask) -> float:
+    """Half the width at the widest place; every second pixel is enough to tell."""
+    return float(depth_within(np.pad(area[::2, ::2], 1)).max())
 
 
 def _kind(shape: _Shape, below: Sequence[_Shape]) -> LayerKind:

@@ -85,22 +85,17 @@ class ProjectShot:
         return Cel(pixels, ink=ink, layers=self._layers(number))
 
     def _layers(self, number: int) -> tuple[CelLayer, ...]:
-        """The lit layers apart. Of very many, the lowest are painted together."""
+        """The lit layers apart, but for those that show nothing. None if there is only one, or
+        more than ``MAX_LAYERS``."""
         shown = [layer for layer in self._stack.lit if layer.key_at(number) is not None]
-        if len(shown) < 2:
-            return ()
-        low = max(1, len(shown) - MAX_LAYERS + 1)
-        groups = [shown[:low], *([layer] for layer in shown[low:])]
-        found = (
-            cropped_layer(
-                group[0].name,
-                self._painter.paint(group, number),
-                line=all(layer in self._stack.line for layer in group),
-            )
-            for group in groups
-        )
-        layers = tuple(layer for layer in found if layer is not None)
-        return layers if len(layers) > 1 else ()
+        found: list[CelLayer] = []
+        for layer in shown if len(shown) > 1 else []:
+            picture = self._painter.paint([layer], number)
+            drawn = cropped_layer(layer.name, picture, line=layer in self._stack.line)
+            found += [] if drawn is None else [drawn]
+            if len(found) > MAX_LAYERS:
+                return ()
+        return tuple(found) if len(found) > 1 else ()
 
     def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
         scene = replace(scene, canvas=self.canvas)
