@@ -90,8 +90,9 @@ private Q_SLOTS:
         const int cancelled = mHost->mCancelled;
         mHost->mTool->setChecked(false);
         QCOMPARE(mHost->mCancelled, cancelled);
-        for (int frame = 2; frame <= 8; ++frame)
-            Q_EMIT mHost->frameExported({frame, drawing(), {}, mHost->mRequests.last().layers});
+        const QVector<FakeHost::Request> waiting = mHost->mRequests;
+        for (const FakeHost::Request& request : waiting)
+            Q_EMIT mHost->frameExported({request.first, drawing(), {}, request.layers});
         QCOMPARE(mWorker->mFrames, QStringLiteral("1-8"));
     }
 
