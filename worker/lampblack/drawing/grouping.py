@@ -66,9 +66,8 @@ class Placed:
 
 @dataclass(frozen=True, eq=False)
 class _Shape:
-    """A layer at low resolution: where it is painted, and what it hides or encloses."""
+    """A layer at low resolution: what it hides or encloses, and its outline."""
 
-    painted: Mask
     filled: Mask
     outline: Mask
     line: bool
@@ -154,20 +153,20 @@ def _shape(layer: CelLayer, size: tuple[int, int], step: int) -> _Shape:
     around = (layer.top - top * step, 0), (layer.left - left * step, 0), (0, 0)
     small = shrunk(np.pad(layer.pixels, around), step)
     part = slice(top, top + len(small)), slice(left, left + small.shape[1])
-    painted = np.zeros((rows, columns), bool)
-    painted[part] = small[..., 3] >= 128
+    painted = small[..., 3] >= 128
     line = layer.line or (bool(painted.any()) and is_line_art(painted))
-    filled = np.asarray(ndimage.binary_fill_holes(painted)) if line else painted
+    filled = np.zeros((rows, columns), bool)
+    filled[part] = ndimage.binary_fill_holes(painted) if line else painted
     rim = filled & ~lowest(filled, 1)
     # Where the canvas cuts a layer off, it has no outline.
     rim[[0, -1]] = False
     rim[:, [0, -1]] = False
     glaze = bool(layer.pixels[..., 3].max(initial=0) < GLAZE * 255)
-    inked = np.zeros_like(painted)
+    inked = np.zeros_like(filled)
     if not line and not glaze:
         inked[part] = _ink(np.pad(small, ((NEAR, NEAR), (NEAR, NEAR), (0, 0))))
     outlined = _share(rim, highest(inked, NEAR)) >= OUTLINED
-    return _Shape(painted, filled, rim, line, glaze, outlined)
+    return _Shape(filled, rim, line, glaze, outlined)
 
 
 def _ink(framed: Picture) -> Mask:
