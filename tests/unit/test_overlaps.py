@@ -23,7 +23,8 @@ from lampblack.surface import (
 from lampblack.surface.cuts import Cuts, across
 from lampblack.surface.direct import Prior, inflate_direct
 from lampblack.surface.overlap import Overlap, pack_overlaps, unpack_overlaps
-from lampblack.surface.strokes import find_strokes
+from lampblack.surface.repeats import marks_among
+from lampblack.surface.strokes import Stroke, find_strokes
 
 Image = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -54,7 +55,7 @@ def two_disks() -> tuple[Prediction, Mask, Image, Mask]:
     rim = front & ~ndimage.binary_erosion(front, iterations=2)
     lines = rim | (back & ~ndimage.binary_erosion(back, iterations=2))
     depth = ndimage.gaussian_filter(np.where(front, STEP, 0.0), 4) * back
-    edge = np.clip(2 * ndimage.gaussian_filter(rim.astype(np.float64), 3), 0, 1) * back
+    edge = np.clip(4 * ndimage.gaussian_filter(rim.astype(np.float64), 3), 0, 1) * back
     seen = Prediction(flat_normals(back), depth.astype(np.float32), edge.astype(np.float32))
     return seen, back, lines.astype(np.float32), front
 
@@ -142,7 +143,7 @@ def test_where_unsure_the_sides_are_joined(fault: str) -> None:
     if fault == "flat":
         seen = replace(seen, depth=seen.depth * np.float32(0.05))
     elif fault == "no edge":
-        seen = replace(seen, edge=seen.edge * np.float32(0.3))
+        seen = replace(seen, edge=seen.edge * np.float32(0.25))
     elif fault == "no depth":
         seen = replace(seen, depth=None, edge=None)
     else:
@@ -309,3 +310,15 @@ def test_the_votes_of_several_drawings_decide() -> None:
     assert not solve_with_overlaps(replace(seen, votes=0 * votes), mask, lines)[1]
     swapped, _ = solve_with_overlaps(replace(seen, votes=-votes), mask, lines)
     assert lifted(swapped, mask) < -0.01 * SIZE
+
+
+def test_stripes_and_spots_are_marks_and_an_outline_is_none() -> None:
+    stripes = [
+        np.stack([np.full(80, 40.0 + gap), np.arange(60, 140)], axis=1).astype(np.float32)
+        for gap in (0, 10, 21, 100)
+    ]
+    turn = np.linspace(0, 2 * np.pi, 40)
+    spot = np.stack([180 + 5 * np.cos(turn), 30 + 5 * np.sin(turn)], axis=1).astype(np.float32)
+    strokes = [Stroke(points, (True, True), False) for points in (*stripes, ring(60), spot)]
+    found = marks_among(strokes, (SIZE, SIZE), float(SIZE))
+    assert found.tolist() == [True, True, True, False, False, True]

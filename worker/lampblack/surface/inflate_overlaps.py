@@ -33,14 +33,14 @@ PRIOR = 10.0
 """The weight of the predicted depth is the square of this over the character's length: shapes
 smaller than a tenth of the character follow the normals. At 5, steps are lost; at 20, the surface
 bends."""
-GAIN = 1.3
+GAIN = 1.35
 """Steps held by the predicted depth are too small by about this factor; at 2, more of them are
 too large."""
-LEAST, LARGEST = 0.025, 0.3
+LEAST, LARGEST = 0.03, 0.3
 """Limits of a step; shares of the length."""
 LEAST_HINTED = 0.03
 """The same where the artist says what is in front: the prediction may say otherwise."""
-TAPER = 0.04
+TAPER = 0.06
 """A step falls to 0 over this distance from an end where its sides join; share of the length."""
 POOL = 0.01
 """Steps are averaged over this share of the length, either way along an occlusion."""

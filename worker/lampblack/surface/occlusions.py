@@ -16,12 +16,17 @@ from numpy.typing import NDArray
 from ..choices import FrontSide
 from ..compiled import compiled
 from .cuts import Floats, across
+from .repeats import marks_among
 from .strokes import Stroke, mean_along
 
 EDGE = 0.45
 """A stroke is an occlusion where the network is this sure of one (best F1 on test views)."""
 EDGE_GOES_ON = 0.3
 """An occlusion found nearby goes on along its stroke where the network is this sure."""
+SURE = 0.43
+"""The least that it is sure on average over an occlusion: it half believes in marks."""
+SURE_OF_MARK = 0.72
+"""The same on a stroke that repeats as marks do (chosen on validation views)."""
 STEP = 0.012
 """Step across a stroke from which on it is an occlusion, as a share of the character's length; at
 lower ones, borders of colours are cut."""
@@ -99,6 +104,7 @@ def find_occlusions(
     beside = np.array(BESIDE, np.float32) * np.float32(length)
     widest = np.float32(WIDEST * length)
     long = [stroke for stroke in strokes if len(stroke.points) >= SHORTEST * length]
+    marks = marks_among(long, mask.shape, length)
     sides = [across(stroke.points, "left") for stroke in long]
     compared = [
         _compare(stroke.points, left, ink, order, edge, mask, beside, widest)
@@ -106,7 +112,9 @@ def find_occlusions(
     ]
     widths = [width for _, _, _, width in compared]
     usual = float(np.median(np.concatenate(widths))) if widths else 0.0
-    for stroke, left, (step, sure, known, width) in zip(long, sides, compared, strict=True):
+    for stroke, left, mark, (step, sure, known, width) in zip(
+        long, sides, marks, compared, strict=True
+    ):
         step, sure = (mean_along(a, known, reach, closed=stroke.closed) for a in (step, sure))
         every = np.ones(len(known), bool)
         mean_left = [mean_along(a, every, far, closed=stroke.closed) for a in left.T]
@@ -120,7 +128,11 @@ def find_occlusions(
         both: tuple[tuple[FrontSide, Floats], ...] = ("left", share), ("right", -share)
         for front, ahead in both:
             start, goes_on = clear & (ahead > STEP), faint & (ahead > STEP_GOES_ON)
-            found += _runs(stroke, start, goes_on, known, front, length)
+            found += [
+                run
+                for run, sureness in _runs(stroke, start, goes_on, known, front, length, sure)
+                if votes is not None or sureness > (SURE_OF_MARK if mark else SURE)
+            ]
     return [_to_the_outline(occlusion, mask, length) for occlusion in found]
 
 
@@ -164,13 +176,15 @@ def _runs(
     known: NDArray[np.bool_],
     front: FrontSide,
     length: float,
-) -> list[Occlusion]:
-    """The parts of a stroke that go on, where enough of each is a start."""
+    sure: Floats,
+) -> list[tuple[Occlusion, float]]:
+    """The parts of a stroke that go on, where enough of each is a start; and how sure each is."""
     points, count = stroke.points, len(goes_on)
     if stroke.closed and not goes_on.all():
         first = -int(np.argmin(goes_on))  # start where nothing is found
         points = np.roll(points, first, axis=0)
         start, goes_on, known = (np.roll(a, first) for a in (start, goes_on, known))
+        sure = np.roll(sure, first)
     close = round(CLOSE * length)
     free = not any(stroke.meets) and not stroke.closed
     shortest = (SHORTEST_FREE if free else SHORTEST) * length
@@ -180,8 +194,10 @@ def _runs(
         if last - first < shortest or np.count_nonzero(start[first:last]) < SHORTEST * length / 2:
             continue
         if stroke.closed and last - first == count:
-            found.append(Occlusion(np.concatenate([points, points[:1]]), front, (False, False)))
+            ring = Occlusion(np.concatenate([points, points[:1]]), front, (False, False))
+            found.append((ring, float(sure.mean())))
             continue
+        sureness = float(sure[first:last].mean())
         if stroke.meets[0] and first <= close:
             first = 0
         if stroke.meets[1] and count - last <= close:
@@ -191,7 +207,8 @@ def _runs(
         joins_last = last < count or not stroke.meets[1]
         joins_first &= bool(known[max(0, first - close) : first].all())
         joins_last &= bool(known[last : last + close].all())
-        found.append(Occlusion(points[first:last], front, (joins_first, joins_last)))
+        run = Occlusion(points[first:last], front, (joins_first, joins_last))
+        found.append((run, sureness))
     return found
 
 
