@@ -81,22 +81,22 @@ def turntable(
     """
     turned = _views(load_model(path), views, character_px, seed)
     predicted = [predictor.predict(view.lines, view.seen.mask).normals for view in turned]
-    near = _neighbours(turned, predicted)
     with TemporaryDirectory(prefix="lampblack-") as folder:
         pipeline = Pipeline(ArrayCache(Path(folder)), predictor=predictor)
         drawn = [ink_drawing(view.lines, view.seen.mask) for view in turned]
+        small = [pipeline.thumbnail(drawing) for drawing in drawn]
         heights = {
             "truth": [view.seen.depth for view in turned],
             "predicted": [pipeline.prepare(drawing).height for drawing in drawn],
             "steadied": [
                 pipeline.prepare(drawing, lazy_neighbours(around)).height
-                for drawing, around in zip(drawn, near, strict=True)
+                for drawing, around in zip(drawn, _neighbours(small), strict=True)
             ],
         }
     rows = {
         "truth": [view.seen.normals for view in turned],
         "predicted": predicted,
-        "steadied": _smoothed(turned, predicted, near),
+        "steadied": _smoothed(turned, predicted),
     }
     return {name: _measure(turned, rows[name], heights[name]) for name in rows}
 
@@ -127,21 +127,20 @@ def _views(model: Model, count: int, character_px: int, seed: int) -> list[View]
     return turned
 
 
-def _neighbours(views: Sequence[View], normals: Sequence[Normals]) -> list[Neighbours]:
-    small = _small(views, normals)
+def _neighbours(small: Sequence[RegistrationThumbnail]) -> list[Neighbours]:
     return [
         Neighbours(tuple(small[max(0, i - REACH) : i][::-1]), tuple(small[i + 1 :][:REACH]))
-        for i in range(len(views))
+        for i in range(len(small))
     ]
 
 
-def _smoothed(
-    views: Sequence[View], predicted: Sequence[Normals], near: Sequence[Neighbours]
-) -> list[Normals]:
+def _smoothed(views: Sequence[View], predicted: Sequence[Normals]) -> list[Normals]:
     temporal_filter, small = TemporalFilter(), _small(views, predicted)
     return [
         temporal_filter.smooth(normals, view.seen.mask, here, around)
-        for normals, view, here, around in zip(predicted, views, small, near, strict=True)
+        for normals, view, here, around in zip(
+            predicted, views, small, _neighbours(small), strict=True
+        )
     ]
 
 
