@@ -11,7 +11,7 @@ from ..choices import DEFAULT_GRIDS
 from ..drawing import decompose_drawing
 from ..normals.predict import NormalPredictor
 from ..normals.predict_tiles import PAPER_GRIDS
-from ..surface import build_relief, guided_filter, solve
+from ..surface import build_relief, dividing_lines, guided_filter, solve_with_overlaps
 
 
 def bench_normals(picture: NDArray[np.uint8], runs: int = 5) -> dict[str, float]:
@@ -35,9 +35,11 @@ def bench_normals(picture: NDArray[np.uint8], runs: int = 5) -> dict[str, float]
         begin = moment = time.perf_counter()
         drawing = decompose_drawing(picture)
         moment = timed("take_apart", moment)
-        normals = predictor.predict(drawing.lines, drawing.mask).normals
+        prediction = predictor.predict(drawing.lines, drawing.mask)
         moment = timed("normals", moment)
-        height = guided_filter(solve(normals, drawing.mask), drawing.mask)
+        lines = dividing_lines(drawing.lines, drawing.ink, drawing.mask)
+        height, _ = solve_with_overlaps(prediction, drawing.mask, lines)
+        height = guided_filter(height, drawing.mask)
         moment = timed("surface", moment)
         build_relief(height, drawing.mask)
         moment = timed("mesh", moment)
