@@ -12,7 +12,16 @@ import lampblack
 from lampblack.drawing import Drawing
 from lampblack.errors import DrawingError, NothingDrawnError, SceneError
 from lampblack.pipeline import Pipeline
-from lampblack.scene import AreaLight, LightKey, Scene, default_scene, encode_scene
+from lampblack.scene import (
+    AreaLight,
+    Depth,
+    DepthHint,
+    DepthPoint,
+    LightKey,
+    Scene,
+    default_scene,
+    encode_scene,
+)
 from support.drawings import draw_ball
 
 
@@ -30,13 +39,19 @@ def rendered(monkeypatch: pytest.MonkeyPatch) -> list[Scene]:
 
 def test_files_and_arrays_are_the_same(ball_png: Path, rendered: list[Scene]) -> None:
     keys = (LightKey(1, 30, 20, 60), LightKey(9, 90, 20, 60))
-    scene = replace(default_scene(99, 99), lights=(AreaLight(0, 0, 60, keys=keys),))
+    hints = (DepthHint(1, (DepthPoint(10, 10),)), DepthHint(5, (DepthPoint(20, 20),)))
+    scene = replace(
+        default_scene(99, 99),
+        lights=(AreaLight(0, 0, 60, keys=keys),),
+        depth=Depth(hints=hints),
+    )
     path = ball_png.with_suffix(".json")
     path.write_bytes(encode_scene(scene))
     assert np.array_equal(lampblack.light(ball_png, path), lampblack.light(draw_ball(), scene))
     assert rendered[0] == rendered[1]
     assert rendered[0].canvas.width == 160
     assert rendered[0].lights[0].x == 30
+    assert rendered[0].depth.hints == hints[:1]
     lampblack.light(str(ball_png))
     assert rendered[2] == default_scene(160, 160)
 

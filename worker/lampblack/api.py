@@ -38,7 +38,7 @@ def light(
     Args:
         picture: (H, W, 4) uint8, sRGB, straight alpha; or a PNG file.
         scene: what lights it, in the drawing's pixels; or a scene file; None is one white light.
-            Lights with keys shine as in frame 1.
+            Lights with keys shine as in frame 1, whose hints of depth count.
         mask, ink: pictures of the same size, in the same form, whose white or opaque part is the
             character mask, and whose dark or opaque part is the ink line; None finds them.
 
@@ -60,8 +60,10 @@ def light(
         scene = default_scene(canvas.width, canvas.height)
     elif not isinstance(scene, Scene):
         scene = read_scene(Path(scene))
+    hints = tuple(hint for hint in scene.depth.hints if hint.frame == 1)
+    scene = replace(scene_at(scene, 1), canvas=canvas, depth=replace(scene.depth, hints=hints))
     with _ONE_AT_A_TIME:
-        return _pipeline().render(drawing, replace(scene_at(scene, 1), canvas=canvas))
+        return _pipeline().render(drawing, scene)
 
 
 @functools.cache

@@ -426,8 +426,9 @@ class Pipeline:
     def render(
         self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
     ) -> NDArray[np.uint8]:
-        """The lit drawing, (H, W, 4) uint8 sRGB, straight alpha."""
-        prepared = self.prepare(drawing, neighbours)
+        """The lit drawing, (H, W, 4) uint8 sRGB, straight alpha. All hints of ``scene`` are about
+        this drawing."""
+        prepared = self.prepare(drawing, neighbours, hints=scene.depth.hints)
         return composite(drawing, self.light(prepared, scene), scene)
 
 
