@@ -19,7 +19,7 @@ from lampblack.finals.scene_file import save_scene
 from lampblack.finals.settings import RenderSettings
 from lampblack.pipeline import Pipeline
 from lampblack.prepared import PreparedDrawing
-from lampblack.scene import Material, default_scene
+from lampblack.scene import LayerBody, Material, default_scene
 from lampblack.surface import check_relief, visible_faces
 from support.command_line import Run
 from support.drawings import draw_capsule, layered_cel
@@ -206,3 +206,19 @@ def test_layers_of_a_project_on_the_command_line(run: Run, tmp_path: Path) -> No
         refused = run("height", path, "-o", tmp_path / "no.npy", "--layer-body", wrong)
         assert refused.code == 1
         assert "LAYER=BODY" in refused.err
+
+
+def test_what_is_painted_on_leaves_the_surface_below_as_it_is(pipeline: Pipeline) -> None:
+    """Where it sticks out, it goes on at the height of what is nearest."""
+    cel = layered_cel(body=BODY, arm=ARM)
+    drawing = decompose_cel(cel, [LayerBody("arm", "flat")])
+    assert [body.name for body in drawing.bodies] == ["body"]
+    prepared = pipeline.prepare(drawing)
+    alone = pipeline.prepare(decompose_drawing(BODY)).height
+    inside = (BODY[..., 3] >= 128) & drawing.mask
+    rows, columns = np.nonzero(inside & (alone > 0))
+    assert np.abs(prepared.height - alone)[rows, columns].max() < 1e-3
+    sticks_out = drawing.mask & ~inside
+    assert np.count_nonzero(sticks_out) > 100
+    assert prepared.height[sticks_out].max() <= alone.max()
+    assert check_relief(prepared.relief()) == []

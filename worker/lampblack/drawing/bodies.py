@@ -39,11 +39,14 @@ def decompose_cel(cel: Cel, choices: Iterable[LayerBody] = ()) -> Drawing:
     if len(cel.layers) < 2:
         return whole
     placed = place_layers(cel.layers, whole.size, choices)
-    if sum(layer.kind == "own" for layer in placed) < 2:
+    kinds = [layer.kind for layer in placed]
+    if kinds.count("own") < 2 and "flat" not in kinds:
         return whole
     sheets = [sheet for sheet in _sheets(cel.layers, placed, whole.size) if sheet.painted.any()]
     bodies = [body for sheet in sheets if (body := _body(sheet, whole, cel)) is not None]
-    return replace(whole, bodies=_covering(bodies, whole)) if len(bodies) > 1 else whole
+    if len(bodies) < (1 if "flat" in kinds else 2):
+        return whole
+    return replace(whole, bodies=_covering(bodies, whole))
 
 
 @dataclass(eq=False)
