@@ -40,25 +40,32 @@ def wall_with_post() -> trimesh.Trimesh:
     return trimesh.util.concatenate([wall, post])
 
 
+def wall_with_bar() -> trimesh.Trimesh:
+    """A thin bar before a wall, which light passes beneath."""
+    wall = trimesh.creation.box(extents=(2, 2, 0.1))
+    bar = trimesh.creation.box(extents=(0.2, 1, 0.02))
+    bar.apply_translation((0, 0, 0.44))
+    return trimesh.util.concatenate([wall, bar])
+
+
 def test_the_relief_of_the_true_depth_has_the_true_shadows() -> None:
-    truth, depth, mask = truth_of(wall_with_post())
+    truth, depth, mask = truth_of(wall_with_bar())
     relief = surface_of_height(depth, mask).relief
     found = truth.measure(relief.vertices, relief.faces)
-    assert found.shadow_recall > 0.97
+    assert found.shadow_recall > 0.9
     assert found.shadow_precision > 0.97
 
 
-def test_a_flat_relief_has_no_shadows_and_a_higher_one_too_many() -> None:
-    truth, depth, mask = truth_of(wall_with_post())
+def test_a_flat_relief_has_no_shadows_and_a_higher_one_other_shadows() -> None:
+    truth, depth, mask = truth_of(wall_with_bar())
     flat = build_relief(np.zeros_like(depth), mask)
     found = truth.measure(flat.vertices, flat.faces)
     assert found.shadow_recall == 0
     assert np.isnan(found.shadow_precision)
     high = build_relief(np.where(mask, 2 * depth, 0), mask)
     found = truth.measure(high.vertices, high.faces)
-    assert found.shadow_recall > 0.97
-    # A post twice as high has a shadow twice as long, where the wall does not end before.
-    assert 0.5 < found.shadow_precision < 0.75
+    assert found.shadow_recall < 0.2
+    assert found.shadow_precision < 0.2
 
 
 def test_the_shadow_of_a_post_has_its_length() -> None:

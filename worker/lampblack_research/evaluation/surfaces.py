@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,9 +57,10 @@ class NetworkMethod:
     def __init__(self, weights: Path | None, grids: int = DEFAULT_GRIDS) -> None:
         predictor = NormalPredictor(*load_network(weights)) if weights else NormalPredictor()
         self._predictor, self._grids = predictor, grids
-        self._folder = TemporaryDirectory(prefix="lampblack-")
+        folder = TemporaryDirectory(prefix="lampblack-")
+        weakref.finalize(self, folder.cleanup)
         self._pipeline = Pipeline(
-            ArrayCache(Path(self._folder.name), max_bytes=1 << 28),
+            ArrayCache(Path(folder.name), max_bytes=1 << 28),
             PipelineOptions(grids=grids),
             predictor=predictor,
         )
