@@ -28,7 +28,7 @@ from lampblack_research.training.character_batches import (
     input_and_truth,
     place_on_canvas,
 )
-from lampblack_research.training.character_loss import Batch, angles
+from lampblack_research.training.character_loss import Batch, angles, pair_losses
 from lampblack_research.training.checkpoint import Progress
 from lampblack_research.training.curve import SIZE
 from lampblack_research.training.normalisation import recompute_statistics
@@ -63,6 +63,24 @@ def test_tiles_mirror_the_normals_with_the_drawing(data: Path) -> None:
         # Outwards is outwards: on the whole the normal's x grows with the pixel's x.
         _rows, columns = np.nonzero(inside)
         assert np.corrcoef(columns, truth[0][inside])[0, 1] > 0.3
+
+
+def test_the_loss_of_depth_order_prefers_the_right_side_in_front() -> None:
+    """Two plates, the right one nearer by 0.1 sides of the canvas."""
+    truth = torch.zeros(1, 8, 8)
+    truth[..., 4:] = 0.1
+    inside = torch.ones(1, 8, 8, dtype=torch.bool)
+    right = [float(loss) for loss in pair_losses(truth + 3.0, truth, inside)]
+    flat = [float(loss) for loss in pair_losses(torch.zeros_like(truth), truth, inside)]
+    wrong = [float(loss) for loss in pair_losses(-truth, truth, inside)]
+    assert right[0] == pytest.approx(0, abs=1e-6)
+    assert right[1] < 0.01 < flat[1] < wrong[1]
+    assert right[0] < flat[0] < wrong[0]
+    # Of a plane there is no order, and nothing outside the character counts.
+    plane = torch.linspace(0, 0.05, 8).expand(1, 8, 8)
+    assert float(pair_losses(-plane, plane, inside)[1]) == 0
+    inside[..., 4:] = False
+    assert pair_losses(-truth, truth, inside)[0] == 0
 
 
 def test_whole_characters_mirror_every_map_with_the_drawing(data: Path) -> None:

@@ -1,4 +1,4 @@
-"""Loss of the character network: angle, certainty, depth and occlusions."""
+"""Loss of the character network: angle, certainty, depth, depth order and occlusions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,15 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-CERTAINTY, DEPTH, OCCLUSION = 0.03, 0.2, 0.02
+CERTAINTY, DEPTH, OCCLUSION = 0.03, 0.4, 0.02
+DIFFERENCE, ORDER = 0.4, 0.02
+REACHES = (1, 2, 4)
+"""Distances, in cells, over which differences of depth are compared."""
+JUMP = 0.02
+"""Differences of depth above this, in sides of the canvas, count as an occlusion."""
+JUMP_WEIGHT = 5.0
+MARGIN = 0.02
+"""Scale of the ordinal loss: a predicted order is sure from about this difference of depth."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +62,39 @@ def character_loss(found: tuple[Tensor, Tensor, Tensor], batch: Batch) -> Loss:
     edges = nn.functional.binary_cross_entropy_with_logits(
         auxiliary[:, 1:], batch.auxiliary[:, 1:], reduction="none"
     )
-    total = mean + CERTAINTY * sure + DEPTH * depth
+    difference, order = pair_losses(auxiliary[:, 0], batch.auxiliary[:, 0], cells[:, 0] > 0.5)
+    total = mean + CERTAINTY * sure + DEPTH * depth + DIFFERENCE * difference + ORDER * order
     total = total + OCCLUSION * (edges * cells).sum() / share
     return Loss(total, math.degrees(float(mean.detach())))
+
+
+def pair_losses(found: Tensor, truth: Tensor, inside: Tensor) -> tuple[Tensor, Tensor]:
+    """Losses of pairs of cells: the difference of their depths, and their order where one
+    occludes the other.
+
+    Args:
+        found, truth: (B, h, w) depth in sides of the canvas. inside: (B, h, w) bool.
+
+    Returns:
+        The weighted mean absolute error of the difference, occluding pairs counting
+        ``JUMP_WEIGHT`` times; and the mean ordinal loss ``softplus(-sign x difference)`` over
+        the occluding pairs.
+    """
+    errors = weights = orders = jumps = found.new_zeros(())
+    for reach in REACHES:
+        for axis in (1, 2):
+            count = found.shape[axis] - reach
+            near = [t.narrow(axis, 0, count) for t in (found, truth)]
+            far = [t.narrow(axis, reach, count) for t in (found, truth)]
+            both = inside.narrow(axis, 0, count) & inside.narrow(axis, reach, count)
+            ours, true = near[0] - far[0], near[1] - far[1]
+            jump = (both & (true.abs() > JUMP * reach**0.5)).float()
+            weight = both.float() + (JUMP_WEIGHT - 1) * jump
+            errors = errors + (weight * (ours - true).abs()).sum()
+            weights = weights + weight.sum()
+            order = nn.functional.softplus(-true.sign() * ours / MARGIN)
+            orders, jumps = orders + (jump * order).sum(), jumps + jump.sum()
+    return errors / weights.clamp(min=1), orders / jumps.clamp(min=1)
 
 
 def angles(a: Tensor, b: Tensor) -> Tensor:
