@@ -128,6 +128,7 @@ def test_a_moving_camera_and_keyed_lights_are_rendered_as_on_the_command_line(
     keys = tuple(LightKey(n, x, 200, light.z, light.size) for n, x in ((1, 60), (5, 580)))
     lights = (replace(light, keys=keys), replace(light, x=320.0, colour="#80a0ff", power=0.5))
     sidecar(project).write_bytes(encode_scene(replace(scene, lights=lights)))
+    shared.close()  # only what is as in its file is rendered from the file: begin afresh
     window = shared.open(project)
     window.set("lampblack.panel.range", "currentIndex", 1)
     light_up(window)
