@@ -24,7 +24,7 @@ inline QSize sizeOf(const Canvas& canvas)
 /// Height of a light above the paper at which power 1 is calibrated, canvas pixels.
 double defaultHeight(const Canvas& canvas);
 
-/// A white light over (x, y) at the default height, as scene.py makes it.
+/// A white light over (x, y) at the default height, as `default_light` in Python makes it.
 AreaLight defaultLight(const Canvas& canvas, double x, double y);
 
 /// One light above the upper left of the canvas, no floor.

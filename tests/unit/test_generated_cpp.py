@@ -83,7 +83,7 @@ def test_a_scene_field_is_one_line_of_python(tmp_path: Path) -> None:
         keep = shutil.ignore_patterns("weights", "__pycache__")
         shutil.copytree(ROOT / folder, tmp_path / folder, ignore=keep)
     shutil.copy(ROOT / ".clang-format", tmp_path)
-    scene = tmp_path / "worker" / "lampblack" / "scene.py"
+    scene = tmp_path / "worker" / "lampblack" / "scene" / "scene.py"
     head, mark, tail = scene.read_text().partition("    quality: ")
     line = '    exposure: Annotated[float, Meta(ge=-8, le=8, description="stops")] = 0.0\n'
     scene.write_text(head + line + mark + tail)

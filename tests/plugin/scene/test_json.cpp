@@ -38,7 +38,7 @@ private Q_SLOTS:
 
 void SceneJson::defaultsAreTheWorkers()
 {
-    // scene.py: default_scene(1280, 720)
+    // Python: default_scene(1280, 720)
     const Scene scene = defaultScene({1280, 720});
     const AreaLight& light = scene.lights.first();
     QCOMPARE(scene.lights.size(), 1);

@@ -12,7 +12,7 @@ from .fields import fields_of, structs_in, unwrapped
 from .members import Form, Translator
 from .text import camel, heading, pascal
 
-SOURCE = "worker/lampblack/scene.py"
+SOURCE = "worker/lampblack/scene/"
 NAMESPACE = "lampblack"
 CONSTANTS = ("MAX_LIGHTS", "MAX_KEYS", "MAX_JSON_BYTES")
 

@@ -1,0 +1,50 @@
+"""The scene: everything that says how drawings are lit, as one frozen tree.
+
+Canvas frame, in the drawing's own pixels: x right, y down, origin at the drawing's top left
+corner, z towards the viewer, the paper at z = 0. Colours are ``#rrggbb`` in sRGB. The tree
+goes to JSON and back; fields this version does not know are kept and written out again.
+"""
+
+from .depth import MAX_HINT_POINTS, MAX_HINTS, Depth, DepthHint, DepthPoint, LayerBody
+from .document import (
+    MAX_JSON_BYTES,
+    decode_depth,
+    decode_scene,
+    encode_scene,
+    normalize_schema,
+    scene_schema,
+)
+from .floor import Floor, FloorKey
+from .lights import Ambient, AreaLight, LightKey
+from .materials import Material
+from .scene import MAX_LIGHTS, VERSION, Canvas, Scene, default_light, default_scene
+from .values import MAX_KEYS, Colour
+
+__all__ = [
+    "MAX_HINTS",
+    "MAX_HINT_POINTS",
+    "MAX_JSON_BYTES",
+    "MAX_KEYS",
+    "MAX_LIGHTS",
+    "VERSION",
+    "Ambient",
+    "AreaLight",
+    "Canvas",
+    "Colour",
+    "Depth",
+    "DepthHint",
+    "DepthPoint",
+    "Floor",
+    "FloorKey",
+    "LayerBody",
+    "LightKey",
+    "Material",
+    "Scene",
+    "decode_depth",
+    "decode_scene",
+    "default_light",
+    "default_scene",
+    "encode_scene",
+    "normalize_schema",
+    "scene_schema",
+]

@@ -1,0 +1,75 @@
+"""Lights: areas of light, and the light that comes from everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any
+
+from msgspec import Meta
+
+from ..affects import Affects, marks_of, traced_part
+from .values import MAX_KEYS, Colour, Diameter, Extra, KeyFrame, Pixels, Strength
+
+
+@dataclass(frozen=True)
+class LightKey:
+    """A light at one frame: each field is one of ``AreaLight`` that keys can change."""
+
+    frame: KeyFrame
+    x: Pixels
+    y: Pixels
+    z: Pixels
+    size: Diameter = 200.0
+    colour: Colour = "#ffffff"
+    power: Strength = 1.0
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class AreaLight:
+    """A disk of light facing the paper point beneath it.
+
+    ``power`` 1 lights a white surface that faces it from the default height (half the
+    canvas's long side) to exactly the drawn colour; light falls off with the square of the
+    distance. ``z`` below 0 stands behind the paper.
+
+    With ``keys``, in any order, it changes from each to the next, and holds before the first and
+    after the last; its own values then count for nothing. Between two keys numbers change evenly,
+    colours in linear light, and any other field holds. Of keys at one frame the last counts. See
+    ``timeline.py``.
+    """
+
+    x: Pixels
+    y: Pixels
+    z: Pixels
+    size: Diameter = 200.0
+    colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
+    power: Annotated[Strength, Affects.COMPOSITE] = 1.0
+    keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
+    extra: Extra = field(default_factory=dict)
+
+    @property
+    def geometry(self) -> Hashable:
+        """All that shapes the light of power 1 in white, as it is without keys."""
+        return traced_part(self)
+
+    def neutral(self) -> AreaLight:
+        """The same light as it is traced: white, of power 1, without keys."""
+        kind: Any = type(self)
+        bare = kind(x=0, y=0, z=0)
+        untraced = {
+            name: getattr(bare, name)
+            for name, mark in marks_of(kind).items()
+            if mark in {Affects.COMPOSITE, Affects.NOTHING}
+        }
+        return replace(self, **untraced)
+
+
+@dataclass(frozen=True)
+class Ambient:
+    """Light from everywhere; strength 1 alone shows an open surface in its drawn colour."""
+
+    colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
+    strength: Annotated[Strength, Affects.COMPOSITE] = 0.3
+    extra: Extra = field(default_factory=dict)

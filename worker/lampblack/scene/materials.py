@@ -1,0 +1,26 @@
+"""Materials: how flat colours reflect light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from msgspec import Meta
+
+from ..affects import Affects
+from .values import Extra, Unit
+
+
+@dataclass(frozen=True)
+class Material:
+    """What a flat colour is made of: diffuse, glossy, both, or neither (left as drawn).
+
+    ``gloss`` is the amount of the glossy lobe, ``roughness`` its width (the paper's glossy
+    exponent, the other way round: 0 is a mirror, 1 is satin).
+    """
+
+    diffuse: Annotated[bool, Affects.COMPOSITE] = True
+    glossy: bool = False
+    gloss: Annotated[Unit, Affects.GLOSS] = 0.5
+    roughness: Annotated[float, Meta(ge=0.02, le=1)] = 0.3
+    extra: Extra = field(default_factory=dict)
