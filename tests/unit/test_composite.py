@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import colorsys
 from dataclasses import replace
 from importlib import import_module
 
@@ -104,15 +105,20 @@ def test_lights_recombine_linearly() -> None:
     assert both[16, 18, :3] == pytest.approx(expected, abs=0.51)
 
 
-def test_brighter_than_white_keeps_its_hue() -> None:
+def test_brighter_than_white_keeps_its_hue_and_shape() -> None:
+    """It pales towards white and stays below it, so that twice the light still looks brighter."""
     drawing = make_drawing((0, 0, 0, 0))
-    for power in (1.5, 3, 50):
-        lit = composite(drawing, Passes((flat(power),), flat(0)), make_scene(LIGHT))
-        drawn = linear(drawing.albedo[16, 18])
-        ratio = linear(lit[16, 18, :3] / 255) / drawn
-        assert ratio.max() == pytest.approx(ratio.min(), rel=0.05)
-        assert ratio.min() > 1
-    assert lit[16, 18].max() == 255
+    drawn = colorsys.rgb_to_hsv(*linear(drawing.albedo[16, 18]))
+    seen = [
+        composite(drawing, Passes((flat(power),), flat(0)), make_scene(LIGHT))[16, 18, :3]
+        for power in (1.5, 3, 6, 12, 24)
+    ]
+    for lit in seen:
+        hue, saturation, _ = colorsys.rgb_to_hsv(*linear(lit / 255))
+        assert hue == pytest.approx(drawn[0], abs=0.01)
+        assert saturation < drawn[1] + 0.01
+    assert (np.diff(np.array(seen, int).sum(axis=1)) > 20).all()
+    assert seen[-1].min() < 250
 
 
 def test_more_light_is_never_darker() -> None:
@@ -143,6 +149,37 @@ def test_materials() -> None:
     unlit = lit(red=Material(diffuse=False), blue=Material())
     assert unlit[RED] == pytest.approx(drawing.albedo[fill[RED]], abs=0.003)
     assert unlit[BLUE] == pytest.approx(srgb(drawn[BLUE] * 0.5), abs=0.003)
+
+
+def test_a_pale_line_is_shaded_and_a_dark_one_stays_as_drawn() -> None:
+    drawing = make_drawing((0, 0, 0, 0))
+    line = (drawing.ink == 1) & (drawing.coverage == 1)
+    dim, full = (Passes((flat(light),), flat(0)) for light in (0.1, 1))
+    for grey, share in ((0.1, 1.0), (0.5, 0.1)):
+        pencil = np.full_like(drawing.ink_colour, grey)
+        pixels = drawing.pixels.copy()
+        pixels[line, :3] = round(grey * 255)
+        drawn = replace(drawing, ink_colour=pencil, pixels=pixels)
+        shaded = composite(drawn, dim, make_scene(LIGHT))[line] / 255
+        assert shaded[:, :3] == pytest.approx(float(srgb(share * linear(grey))), abs=0.006)
+        assert composite(drawn, full, make_scene(LIGHT))[line][:, :3] / 255 == pytest.approx(
+            grey, abs=0.006
+        )
+
+
+def test_glossy_paint_is_not_veiled_by_what_is_all_around_it() -> None:
+    """A mirror reflects the surroundings; paint mostly the lights."""
+    drawing = make_drawing((0, 0, 0, 0))
+    around, key = Passes((flat(0),), flat(0, 0.8)), Passes((flat(0, 0.8),), flat(0))
+
+    def shine(passes: Passes, *, diffuse: bool) -> float:
+        material = Material(diffuse=diffuse, glossy=True, gloss=0.5)
+        scene = make_scene(LIGHT, ambient=Ambient(strength=1), default_material=material)
+        return float(linear(composite(drawing, passes, scene)[16, 18] / 255)[:3].mean())
+
+    assert shine(around, diffuse=False) == pytest.approx(shine(key, diffuse=False), abs=0.002)
+    assert shine(around, diffuse=True) < 0.15 * shine(key, diffuse=True)
+    assert shine(key, diffuse=True) == pytest.approx(0.4, abs=0.003)
 
 
 def with_floor(ratio: tuple[float, float, float]) -> LightPasses:

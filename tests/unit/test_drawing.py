@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from lampblack.drawing import Drawing, character_mask, decompose_drawing
+from lampblack.drawing.morphology import near
 from lampblack.errors import DrawingError, LampblackWarning
 
 SIZE = 240
@@ -191,6 +192,70 @@ def test_hole_in_filled_art_stays_a_hole() -> None:
     mask = character_mask(art)
     assert not mask[120, 150]
     assert mask[120, 100]
+
+
+def inked(size: int, *discs: tuple[int, int, int]) -> NDArray[np.uint8]:
+    """(size, size, 4): filled disks, (x, y, radius), each with a dark line of 4 pixels."""
+    art = np.zeros((size, size, 4), np.uint8)
+    rows, columns = np.mgrid[:size, :size] + 0.5
+    for x, y, radius in discs:
+        distance = np.hypot(columns - x, rows - y)
+        art[distance < radius] = (20, 16, 24, 255)
+        art[distance < radius - 4] = (200, 120, 60, 255)
+    return art
+
+
+def hollow(art: NDArray[np.uint8], x: int, y: int, radius: int) -> None:
+    """A ring of ink around an empty disk."""
+    rows, columns = np.mgrid[: len(art), : len(art)] + 0.5
+    distance = np.hypot(columns - x, rows - y)
+    art[distance < radius] = (20, 16, 24, 255)
+    art[distance < radius - 3] = 0
+
+
+def test_the_white_of_an_eye_is_lit_as_paper() -> None:
+    art = inked(240, (120, 120, 90), (40, 40, 12))
+    hollow(art, 90, 100, 13)
+    hollow(art, 140, 100, 13)
+    art[98:103, 88:93] = (20, 16, 24, 255)  # one has a pupil
+    drawing = decompose_drawing(art)
+    for column in (84, 140):
+        assert drawing.mask[100, column]
+        assert drawing.coverage[100, column] == 1
+        assert drawing.albedo[100, column] == pytest.approx(1)
+        assert drawing.ink[100, column] == 0
+
+
+def test_a_closed_shape_without_fill_beside_a_filled_figure_is_lit() -> None:
+    art = inked(300, (120, 150, 90))
+    hollow(art, 250, 220, 40)
+    drawing = decompose_drawing(art)
+    assert drawing.mask[220, 250]
+    assert drawing.albedo[220, 250] == pytest.approx(1)
+
+
+def test_the_gap_between_an_arm_and_the_body_stays_a_hole() -> None:
+    art = inked(240, (120, 120, 90))
+    rows, columns = np.mgrid[:240, :240] + 0.5
+    gap = (columns > 130) & (rows > 80) & (columns - 130 < (rows - 80) / 3) & (rows < 150)
+    art[np.asarray(near(gap, 4))] = (20, 16, 24, 255)
+    art[gap] = 0
+    assert not character_mask(art)[140, 140]
+
+
+def test_slivers_between_fill_and_ink_are_covered() -> None:
+    """A bucket leaves the soft inner edge of the line translucent: the paper shines through."""
+    rows, columns = np.mgrid[:240, :240] + 0.5
+    distance = np.hypot(columns - 120, rows - 120)
+    line = np.clip(2.2 - abs(distance - 90), 0, 1)
+    art = np.dstack([np.full((240, 240, 3), 20), np.rint(255 * line)]).astype(np.uint8)
+    art[(line < 0.1) & (distance < 90)] = (90, 140, 200, 255)
+    fringe = (art[..., 3] > 0) & (art[..., 3] < 250) & (distance < 89)
+    drawing = decompose_drawing(art)
+    assert np.count_nonzero(fringe) > 100
+    assert (drawing.coverage[fringe] == 1).all()
+    outer = (line > 0) & (line < 0.9) & (distance > 90)
+    assert drawing.coverage[outer] == pytest.approx(line[outer], abs=0.01)
 
 
 def line_art(gap: float = 0) -> NDArray[np.bool_]:

@@ -15,7 +15,7 @@ from ..materials import MaterialTable
 from ..scene import Scene, default_scene
 from .borders import swatch_albedos
 from .byte_layers import ByteLayers
-from .float_kernel import KNEE, ROUNDING
+from .float_kernel import DARK_INK, KNEE, PALE_INK, PALING, ROUNDING
 from .illumination import Illumination
 from .resample import Box
 
@@ -46,7 +46,8 @@ def composite_bytes(
         layers.pixels, layers.albedo, layers.ink, layers.ink_colour, layers.coverage,
         layers.labels, layers.others, layers.shares,
         swatch_albedos(layers.palette), kinds, materials.gloss,
-        illumination.diffuse, illumination.glossy,
+        illumination.diffuse, illumination.glossy if (kinds == 2).any() else _UNIT,
+        illumination.sheen if (kinds == 3).any() else _UNIT,
         _steps(crop, layers.size, illumination.character_area or crop),
         _UNIT if ratio is None else ratio,
         _UNSHADED if ratio is None else _unshaded(ratio), ratio is not None,
@@ -69,7 +70,7 @@ def warm_up() -> None:
     pixels, palette = np.zeros((1, 1, 4), np.uint8), Palette(())
     layers = ByteLayers(pixels, grey, bytes_, grey, bytes_, label, label, bytes_, palette)
     white = np.ones(3, np.float32), _UNIT, _UNIT
-    composite_bytes(layers, Illumination([white], [white]), default_scene(1, 1), (0, 0, 1, 1))
+    composite_bytes(layers, Illumination([white], floor=[white]), default_scene(1, 1), (0, 0, 1, 1))
 
 
 def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, float, float]:
@@ -105,11 +106,19 @@ def _encode(table: Any, value: Any) -> Any:
 
 
 @compiled
+def _paleness(colour: Any) -> Any:
+    """See ``float_kernel.paleness``."""
+    light = (0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2]) / 255
+    share = min(max((light - DARK_INK) / (PALE_INK - DARK_INK), 0.0), 1.0)
+    return np.float32(share * share * (3 - 2 * share))
+
+
+@compiled
 def _light(
     pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any,
     labels: Any, others: Any, shares: Any,
     swatches: Any, kinds: Any, gloss: Any,
-    diffuse: Any, glossy: Any, on_figure: Any,
+    diffuse: Any, glossy: Any, sheen: Any, on_figure: Any,
     floor: Any, unshaded: Any, has_floor: bool, on_ground: Any,
     to_linear: Any, to_srgb: Any, lit: Any,
 ) -> None:  # fmt: skip
@@ -155,24 +164,35 @@ def _light(
                     if kinds[worn] & 1:
                         fill[c] += paint * _sample(diffuse, u, v, c)
                     if kinds[worn] & 2:
-                        shine = gloss[worn] * _sample(glossy, u, v, c)
-                        part = share if second else one - share
-                        fill[c] += part * shine if kinds[worn] & 1 else paint * shine
+                        if kinds[worn] & 1:
+                            part = share if second else one - share
+                            fill[c] += part * gloss[worn] * _sample(sheen, u, v, c)
+                        else:
+                            fill[c] += paint * gloss[worn] * _sample(glossy, u, v, c)
                 peak = max(peak, fill[c])
             knee = min(max(drawn_peak, np.float32(KNEE)), one)
-            scale = one
             if peak > knee:
-                room = max(one - knee, np.float32(1e-4))
-                bent = knee - room * np.float32(np.expm1(-(peak - knee) / room))
+                room, over = max(one - knee, np.float32(1e-4)), peak - knee
+                bent = knee + room * over / (room + over)
                 scale = bent / max(peak, np.float32(KNEE))
+                pale = over * over / (over * over + np.float32(PALING * PALING))
+                for c in range(3):
+                    fill[c] = fill[c] * scale + pale * (bent - fill[c] * scale)
             line = ink[row, column] * byte
+            pale = zero
+            if line > 0 and cover > 0 and kinds[label] & 1:
+                pale = _paleness(ink_colour[row, column])
             ground_alpha = behind
             darkest = one
             for c in range(3):
                 tone = ink_colour[row, column, c] * byte
                 drawn = albedo[row, column, c] * byte
                 drawn += line * (tone - drawn)
-                colour = _encode(to_srgb, fill[c] * scale + unlit[c])
+                colour = _encode(to_srgb, fill[c] + unlit[c])
+                if pale > 0:
+                    light = min(_sample(diffuse, u, v, c), one)
+                    tone = to_linear[ink_colour[row, column, c]] * (one + pale * (light - one))
+                    tone = _encode(to_srgb, tone)
                 colour += line * (tone - colour)
                 paint = pixels[row, column, c] * byte + paper - cover * drawn
                 if shaded:

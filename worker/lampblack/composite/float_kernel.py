@@ -19,6 +19,10 @@ from .resample import Band, enlarge
 from .shadow import shade_background
 
 KNEE = 0.8
+PALING = 3.0
+"""How far above the knee a colour is half way to white."""
+DARK_INK, PALE_INK = 0.15, 0.35
+"""Luma up to which a line stays as drawn, and from which it takes light as the fill does."""
 BAND_PIXELS = 2_000_000
 ROUNDING = 1.5 / 255
 
@@ -75,8 +79,11 @@ def _rows(drawing: Drawing, band: Band) -> Drawing:
 def _composite_band(
     drawing: Drawing, scene: Scene, illumination: Illumination, band: Band
 ) -> NDArray[np.float32]:
-    lit = _lay_ink(drawing, srgb(_lit_fill(drawing, scene, illumination, band)))
-    drawn = _lay_ink(drawing, drawing.albedo)
+    diffuse, glossy, unlit = character_light(drawing, scene, illumination, band)
+    fill = _roll_off(diffuse + glossy, linear(drawing.albedo)) + unlit
+    line = _lit_line(drawing, scene, illumination, band)
+    lit = _lay_ink(drawing, line, srgb(fill))
+    drawn = _lay_ink(drawing, drawing.ink_colour, drawing.albedo)
 
     pixels = drawing.pixels.astype(np.float32) / 255
     coverage = drawing.coverage[..., None]
@@ -118,12 +125,26 @@ def _lift_off_paper(
     return lifted.astype(np.float32), np.where(papered, least, alpha).astype(np.float32)
 
 
-def _lit_fill(
+def _lit_line(
     drawing: Drawing, scene: Scene, illumination: Illumination, band: Band
 ) -> NDArray[np.float32]:
-    """The fill under the lights, scene-linear (H, W, 3), at most 1."""
-    diffuse, glossy, unlit = character_light(drawing, scene, illumination, band)
-    return _roll_off(diffuse + glossy, linear(drawing.albedo)) + unlit
+    """The colour of the line, sRGB (H, W, 3). A pale line is shaded as the fill is; it would glow
+    in the shade otherwise. A dark one stays as drawn."""
+    pale = paleness(drawing.ink_colour) * (drawing.ink > 0)
+    inked = MaterialTable.of(scene, drawing.palette.colours).diffuse[drawing.labels] & (pale > 0)
+    if not inked.any():
+        return drawing.ink_colour
+    light = np.minimum(enlarge(illumination.diffuse, band)[inked], 1)
+    line = drawing.ink_colour.copy()
+    line[inked] = srgb(linear(line[inked]) * (1 + pale[inked, None] * (light - 1)))
+    return line
+
+
+def paleness(ink_colour: Floats) -> Floats:
+    """(...) how far a line of this colour, (..., 3) sRGB, takes light as the fill does, 0 to 1."""
+    light = ink_colour @ np.array([0.299, 0.587, 0.114], np.float32)
+    share = np.clip((light - DARK_INK) / (PALE_INK - DARK_INK), 0, 1)
+    return np.asarray(share * share * (3 - 2 * share), np.float32)
 
 
 def character_light(
@@ -135,17 +156,22 @@ def character_light(
     materials = MaterialTable.of(scene, drawing.palette.colours)
     none = np.zeros_like(albedo)
     diffuse = enlarge(illumination.diffuse, band) if materials.diffuse.any() else none
-    glossy = enlarge(illumination.glossy, band) if materials.glossy.any() else none
+    mirrors, painted = materials.glossy & ~materials.diffuse, materials.glossy & materials.diffuse
+    glossy = enlarge(illumination.glossy, band) if mirrors.any() else none
+    sheen = enlarge(illumination.sheen, band) if painted.any() else none
     other, share = mixed_labels(drawing.labels, albedo, drawing.palette)
     blend = share > 0
     theirs = np.minimum(
         albedo[blend], share[blend, None] * swatch_albedos(drawing.palette)[other[blend]]
     )
     albedo[blend] -= theirs
-    found = _reflected(materials, drawing.labels, albedo, 1 - share[..., None], diffuse, glossy)
-    second = _reflected(
-        materials, other[blend], theirs, share[blend, None], diffuse[blend], glossy[blend]
+    found = _reflected(
+        materials, drawing.labels, albedo, 1 - share[..., None], diffuse, glossy, sheen
     )
+    second = _reflected(
+        materials, other[blend], theirs, share[blend, None],
+        diffuse[blend], glossy[blend], sheen[blend],
+    )  # fmt: skip
     for whole, part in zip(found, second, strict=True):
         whole[blend] += part
     return found
@@ -158,17 +184,22 @@ def _reflected(
     share: Floats,
     diffuse: Floats,
     glossy: Floats,
+    sheen: Floats,
 ) -> tuple[Floats, Floats, Floats]:
     """Diffuse light, glossy light, and colours left as drawn, (..., 3) each, of parts of
     pixels: ``albedo`` is weighted by their ``share`` (..., 1)."""
     has_diffuse, has_glossy = (
         kind[labels][..., None] for kind in (materials.diffuse, materials.glossy)
     )
-    shine = materials.gloss[labels][..., None] * glossy
+    amount = materials.gloss[labels][..., None]
     none = np.float32(0)
     return (
         np.where(has_diffuse, albedo * diffuse, none),
-        np.where(has_glossy, np.where(has_diffuse, share * shine, albedo * shine), none),
+        np.where(
+            has_glossy,
+            amount * np.where(has_diffuse, share * sheen, albedo * glossy),
+            none,
+        ),
         np.where(has_diffuse | has_glossy, none, albedo),
     )
 
@@ -177,18 +208,21 @@ def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[n
     """Compress highlights brighter than white, keeping their hue, scene-linear (H, W, 3).
 
     The brightest channel is unchanged up to ``KNEE``, and up to that of the drawn colour, so that
-    unit irradiance stays exact. Above, it approaches 1 smoothly; clipping would leave a flat patch
-    with a hard edge.
+    unit irradiance stays exact. Above, it approaches 1 as slowly as film does, and the colour pales
+    where there is far too much light. So a bright spot keeps its shape; clipping would leave a
+    flat patch with a hard edge.
     """
     peak = lit.max(axis=2, keepdims=True)
     knee = np.clip(drawn.max(axis=2, keepdims=True), KNEE, 1)
     room = np.maximum(1 - knee, 1e-4)
     over = np.maximum(peak - knee, 0)
-    bent = np.minimum(peak, knee) + room * -np.expm1(-over / room)
-    return np.asarray(lit * np.where(over > 0, bent / np.maximum(peak, KNEE), 1), np.float32)
+    bent = np.minimum(peak, knee) + room * over / (room + over)
+    rolled = lit * np.where(over > 0, bent / np.maximum(peak, KNEE), 1)
+    pale = over * over / (over * over + PALING * PALING)
+    return np.asarray(rolled + pale * (bent - rolled), np.float32)
 
 
-def _lay_ink(drawing: Drawing, fill: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The artist's line composited over the fill, sRGB (H, W, 3)."""
+def _lay_ink(drawing: Drawing, line: Floats, fill: Floats) -> Floats:
+    """The artist's line in the colour ``line`` composited over the fill, sRGB (H, W, 3)."""
     ink = drawing.ink[..., None]
-    return (fill + ink * (drawing.ink_colour - fill)).astype(np.float32)
+    return (fill + ink * (line - fill)).astype(np.float32)

@@ -14,6 +14,8 @@ from ..render.passes import LightPasses, Passes
 from ..scene import Scene
 from .resample import Band, Box, enlarge
 
+VEIL = np.float32(0.1)
+"""Share of the ambient light that glossy paint reflects: of a varnish seen from the front, 0.04."""
 FAINT = np.float32(1e-3)  # avoids 0 / 0: without light there is no shadow
 
 Floats = NDArray[np.float32]
@@ -29,12 +31,14 @@ class Illumination:
     """The sources of light on a drawing. Their sums are computed when they are needed.
 
     Attributes:
-        character: the sources on the character. floor: those on the floor, if there is one.
+        character: the lights on the character. ambient: the ambient light on it, if it has power.
+        floor: the sources on the floor, if there is one.
         character_area, floor_area: the part of the drawing that they cover, in its pixels; None
             is the part that the layers show.
     """
 
     character: Sequence[Weighted]
+    ambient: Weighted | None = None
     floor: Sequence[Weighted] = ()
     character_area: Box | None = None
     floor_area: Box | None = None
@@ -42,13 +46,19 @@ class Illumination:
     @staticmethod
     def of(passes: Passes, scene: Scene) -> Illumination:
         """The light of ``scene``, from ``passes`` of white lights that cover the whole drawing."""
-        return Illumination.sum_of(weigh(passes, scene))
+        return Illumination.sum_of(weigh(passes, scene), passes.ambient)
 
     @staticmethod
-    def sum_of(sources: Sequence[tuple[Floats, LightPasses]]) -> Illumination:
-        """Light passes that cover the whole drawing, with their weights."""
+    def sum_of(
+        sources: Sequence[tuple[Floats, LightPasses]], ambient: LightPasses | None = None
+    ) -> Illumination:
+        """Light passes that cover the whole drawing, with their weights; ``ambient`` is the one
+        of them that is not a light's."""
+        found = [(weight, light.diffuse, light.glossy) for weight, light in sources]
+        around = [one for one, (_, light) in zip(found, sources, strict=True) if light is ambient]
         return Illumination(
-            [(weight, light.diffuse, light.glossy) for weight, light in sources],
+            [one for one, (_, light) in zip(found, sources, strict=True) if light is not ambient],
+            around[0] if around else None,
             [
                 (weight, light.floor, light.open_floor)
                 for weight, light in sources
@@ -59,12 +69,26 @@ class Illumination:
     @cached_property
     def diffuse(self) -> Floats:
         """(h, w, 3) scene-linear, as in ``LightPasses``, at the size of the largest source."""
-        return add_up([(weight, light) for weight, light, _ in self.character])
+        return add_up([(weight, light) for weight, light, _ in self._sources])
 
     @cached_property
     def glossy(self) -> Floats:
         """(h, w, 3) scene-linear, as in ``LightPasses``, at the size of the largest source."""
-        return add_up([(weight, light) for weight, _, light in self.character])
+        return add_up([(weight, light) for weight, _, light in self._sources])
+
+    @cached_property
+    def sheen(self) -> Floats:
+        """As ``glossy``, for paint that is diffuse as well. Such paint reflects little of what is
+        all around it; all of it would lie on the paint as a milky veil."""
+        lights = [(weight, light) for weight, _, light in self.character]
+        if self.ambient is not None:
+            weight, _, light = self.ambient
+            lights.append((weight * VEIL, light))
+        return add_up(lights)
+
+    @property
+    def _sources(self) -> list[Weighted]:
+        return [*self.character, *(() if self.ambient is None else (self.ambient,))]
 
     @cached_property
     def floor_ratio(self) -> Floats | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..errors import DrawingError, LampblackWarning, NothingDrawnError
 from .mask import MIN_CHARACTER, is_line_art, outside_of
 from .morphology import Mask, highest, lowest, without_specks
+from .unfilled import slivers, unfilled
 
 Colours = NDArray[np.uint8]
 
@@ -43,7 +44,8 @@ def cut_out(pixels: NDArray[np.uint8], inside: NDArray[np.float32] | None = None
     A picture with transparency is cut by its alpha. Otherwise the colour of the picture's
     border is the paper, which is flooded inwards up to the character. Empty regions enclosed
     by line belong to the character and are filled with paper. Holes in filled, transparent
-    art stay holes. ``inside``, (H, W) in 0..1, overrides all of this.
+    art stay holes, except those of ``unfilled.py``. ``inside``, (H, W) in 0..1, overrides all of
+    this.
 
     Raises:
         DrawingError: nothing is drawn, or fewer than ``MIN_CHARACTER`` pixels.
@@ -83,7 +85,11 @@ def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
     if is_line_art(drawn):
         cutout = _cover_with_paper(pixels, _enclosed(drawn), alpha)
         return replace(cutout, bare=np.full(3, 255, np.uint8))
-    return Cutout(pixels[..., :3].copy(), alpha, drawn)
+    papered = slivers(pixels[..., 3]) | unfilled(pixels, drawn)
+    if not papered.any():
+        return Cutout(pixels[..., :3].copy(), alpha, drawn)
+    colour = np.where(papered[..., None], _over_white(pixels), pixels[..., :3])
+    return Cutout(colour, np.where(papered, np.float32(1), alpha), drawn | papered)
 
 
 def _enclosed(drawn: Mask) -> Mask:

@@ -189,12 +189,14 @@ class Painter:
         lights: Sequence[AccumulatedLight],
     ) -> Picture:
         pairs = [
-            (contribution.subject, contribution.weight, light)
+            (contribution, (contribution.weight, light.first, light.second))
             for contribution, light in zip(view.contributions, lights, strict=True)
         ]
+        on_character = [(c.light, found) for c, found in pairs if c.subject == "character"]
         light = Illumination(
-            character=[(w, light.first, light.second) for s, w, light in pairs if s == "character"],
-            floor=[(w, light.first, light.second) for s, w, light in pairs if s == "floor"],
+            character=[found for light, found in on_character if light is not None],
+            ambient=next((found for light, found in on_character if light is None), None),
+            floor=[found for c, found in pairs if c.subject == "floor"],
             character_area=view.character,
             floor_area=(0.0, 0.0, float(drawing.size[0]), float(drawing.size[1])),
         )
