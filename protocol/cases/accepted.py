@@ -90,8 +90,15 @@ def accepted() -> Iterator[Case]:
     most = [{"frame": frame, "y": 1} for frame in range(MAX_KEYS)]
     keyed = {**SCENE, "floor": {"y": 1, "keys": most}}
     yield Case("scene-128-keys", "client", patched(SET_SCENE, scene=keyed))
-    lights = [LIGHT] * 4
-    yield Case("scene-four-lights", "client", patched(SET_SCENE, scene={**SCENE, "lights": lights}))
+    lights = [
+        LIGHT,
+        {**LIGHT, "kind": "sun", "name": "S\u00fcnne", "on": False},
+        LIGHT | {"solo": True},
+    ]
+    lights += [LIGHT] * 5
+    yield Case(
+        "scene-eight-lights", "client", patched(SET_SCENE, scene={**SCENE, "lights": lights})
+    )
     yield Case("revision-largest-integer", "client", patched(SET_SCENE, revision=9007199254740991))
     yield Case("image-before-any-scene", "worker", *first_image())
     yield Case(

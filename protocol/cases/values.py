@@ -30,7 +30,7 @@ def rejected_scenes() -> Iterator[Case]:
         "array": [],
         "without-canvas": {"lights": []},
         "version-2": {**SCENE, "version": 2},
-        "five-lights": {**SCENE, "lights": [LIGHT] * 5},
+        "nine-lights": {**SCENE, "lights": [LIGHT] * 9},
         "600-lights": {**SCENE, "lights": [LIGHT] * 600},
         "light-too-far": {**SCENE, "lights": [{**LIGHT, "x": 100000.5}]},
         "light-nan-as-text": {**SCENE, "lights": [{**LIGHT, "x": "NaN"}]},

@@ -53,7 +53,7 @@ def test_materials_follow_the_colour_not_the_order() -> None:
         ("canvas", None),
         ("lights", [{"x": 1, "y": 2}]),
         ("lights", [{"x": 1e30, "y": 2, "z": 3}]),
-        ("lights", [{"x": 1, "y": 2, "z": 3}] * 5),
+        ("lights", [{"x": 1, "y": 2, "z": 3}] * 9),
         ("lights", [{"x": 1, "y": 2, "z": 3, "colour": "#FFF"}]),
         ("lights", [{"x": 1, "y": 2, "z": 3, "power": -1}]),
         ("ambient", {"colour": "#ffffff\n"}),

@@ -22,7 +22,7 @@ Sample = TypeVar("Sample", np.uint8, np.float32)
 def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
     """``scene`` in the pixels of a drawing of ``size`` (width, height), seen through ``camera``."""
     if camera == IDENTITY:
-        return replace(scene, canvas=Canvas(*size))
+        return on_canvas(scene, Canvas(*size))
     a, b, c, d, e, f = camera
     scale = math.sqrt(abs(a * e - b * d))
     width, height = (
@@ -32,10 +32,14 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
     canvas = Canvas(width, height)
 
     def seen(light: AreaLight) -> AreaLight:
+        x, y, right, down = light.x, light.y, c, f
+        if light.kind == "sun":  # from the same side of the canvas, wherever that lies
+            x, y = x - scene.canvas.width / 2, y - scene.canvas.height / 2
+            right, down = width / 2, height / 2
         return replace(
             light,
-            x=a * light.x + b * light.y + c,
-            y=d * light.x + e * light.y + f,
+            x=a * x + b * y + right,
+            y=d * x + e * y + down,
             z=light.z * scale,
             size=max(1.0, light.size * scale),
         )
@@ -46,6 +50,17 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
     lights = tuple(seen(light) for light in scene.lights)
     depth = replace(scene.depth, hints=tuple(hint_in_view(h, camera) for h in scene.depth.hints))
     return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth)
+
+
+def on_canvas(scene: Scene, canvas: Canvas) -> Scene:
+    """``scene`` on another canvas: all stays where it is, and suns shine from where they did."""
+    right = (canvas.width - scene.canvas.width) / 2
+    down = (canvas.height - scene.canvas.height) / 2
+    lights = tuple(
+        replace(light, x=light.x + right, y=light.y + down) if light.kind == "sun" else light
+        for light in scene.lights
+    )
+    return replace(scene, canvas=canvas, lights=lights)
 
 
 def hint_in_view(hint: DepthHint, camera: Affine) -> DepthHint:

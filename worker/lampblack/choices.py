@@ -21,6 +21,9 @@ FrameLayers = Literal["all", "lit"]
 FrontSide = Literal["left", "right", "joined"]
 """The side of a stroke that is in front, or none: the surface goes on across the stroke."""
 
+LightKind = Literal["lamp", "sun"]
+"""A lamp is a disk of light at its place; a sun shines from there on the whole canvas alike."""
+
 BodyChoice = Literal["auto", "own", "below", "flat"]
 """The surface of a layer: found by itself, a body of its own, a part of the body below, or flat
 on it."""

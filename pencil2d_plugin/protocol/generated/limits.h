@@ -10,7 +10,7 @@ namespace lampblack::protocol
 
 struct Limits
 {
-    qint64 headerBytes = 262144;    ///< length of the header frame.
+    qint64 headerBytes = 524288;    ///< length of the header frame.
     qint64 planes = 20;             ///< frames after the header.
     qint64 planeBytes = 268435456;  ///< length of each of them; also what ZMQ_MAXMSGSIZE is to be set to.
     qint64 depth = 32;              ///< objects and arrays within one another in the header, itself included.

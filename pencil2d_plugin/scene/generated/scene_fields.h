@@ -16,6 +16,9 @@ constexpr std::array<Choice<Quality>, 3> QualityChoices = {
 constexpr std::array<Choice<FrontSide>, 3> FrontSideChoices = {
     {{"left", FrontSide::Left}, {"right", FrontSide::Right}, {"joined", FrontSide::Joined}}};
 
+constexpr std::array<Choice<LightKind>, 2> LightKindChoices = {
+    {{"lamp", LightKind::Lamp}, {"sun", LightKind::Sun}}};
+
 constexpr std::array<Choice<BodyChoice>, 4> BodyChoiceChoices = {{{"auto", BodyChoice::Auto},
                                                                   {"own", BodyChoice::Own},
                                                                   {"below", BodyChoice::Below},
@@ -59,6 +62,10 @@ template <class Fields> void describe(Fields& fields, AreaLight& value)
     fields.real("size", value.size, 1, 100000, Need::Optional);
     text(fields, "colour", value.colour, 0, 7, patterns().colour, Need::Optional);
     fields.real("power", value.power, 0, 100, Need::Optional);
+    fields.choice("kind", value.kind, LightKindChoices, Need::Optional);
+    fields.text("name", value.name, 0, 80, Need::Optional);
+    fields.boolean("on", value.on, Need::Optional);
+    fields.boolean("solo", value.solo, Need::Optional);
     fields.listIfAny("keys", value.keys, 128);
     fields.rest(value.extra);
 }
@@ -128,7 +135,7 @@ template <class Fields> void describe(Fields& fields, Depth& value)
 template <class Fields> void describe(Fields& fields, Scene& value)
 {
     fields.object("canvas", value.canvas);
-    fields.list("lights", value.lights, 4, Need::Optional);
+    fields.list("lights", value.lights, 8, Need::Optional);
     fields.object("ambient", value.ambient, Need::Optional);
     fields.map("materials", value.materials, 4096, patterns().colour, Need::Optional);
     fields.object("default_material", value.defaultMaterial, Need::Optional);

@@ -18,7 +18,7 @@
 namespace lampblack
 {
 
-constexpr int MaxLights = 4;
+constexpr int MaxLights = 8;
 constexpr int MaxKeys = 128;
 constexpr int MaxJsonBytes = 1048576;
 
@@ -34,6 +34,12 @@ enum class FrontSide
     Left,
     Right,
     Joined
+};
+
+enum class LightKind
+{
+    Lamp,
+    Sun
 };
 
 enum class BodyChoice
@@ -65,11 +71,17 @@ struct LightKey
     QJsonObject extra = {};
 };
 
-/// A disk of light facing the paper point beneath it.
+/// A disk of light facing the paper point beneath it, or a sun.
 ///
 /// `power` 1 lights a white surface that faces it from the default height (half the canvas's long side) to
 /// exactly the drawn colour; light falls off with the square of the distance. `z` below 0 stands behind the
 /// paper.
+///
+/// A sun shines from its place towards the middle of the canvas, and on all of it alike: with `power` 1 it
+/// lights a white surface that faces it to exactly the drawn colour, wherever that is. The disk as it is seen
+/// from the middle of the canvas is the sun in the sky: only its direction and its angle count.
+///
+/// Only lights that are `on` shine, and only those with `solo` if one of them has it.
 ///
 /// With `keys`, in any order, it changes from each to the next, and holds before the first and after the
 /// last; its own values then count for nothing. Between two keys numbers change evenly, colours in linear
@@ -82,7 +94,11 @@ struct AreaLight
     double size = 200;                ///< diameter, canvas pixels, 1 to 100000
     QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
     double power = 1;                 ///< 0 to 100
-    QVector<LightKey> keys = {};      ///< 128 at most
+    LightKind kind = LightKind::Lamp;
+    QString name = {}; ///< for people
+    bool on = true;
+    bool solo = false;
+    QVector<LightKey> keys = {}; ///< 128 at most
     QJsonObject extra = {};
 };
 
@@ -171,7 +187,7 @@ struct Depth
 struct Scene
 {
     Canvas canvas = {};
-    QVector<AreaLight> lights = {}; ///< 4 at most
+    QVector<AreaLight> lights = {}; ///< 8 at most
     Ambient ambient = {};
     QMap<QString, Material> materials = {};
     Material defaultMaterial = {};

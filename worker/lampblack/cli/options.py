@@ -42,7 +42,7 @@ OPTIONS: dict[str, Any] = {
     "lights": typer.Option(
         "--light",
         metavar="X,Y,Z",
-        help="Position of a white light, in canvas pixels. Replaces the scene's lights; up to 4.",
+        help="Position of a white light, in canvas pixels. Replaces the scene's lights; up to 8.",
     ),
     "floor": typer.Option(
         "--floor",

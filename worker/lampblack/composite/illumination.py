@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..colour import hex_linear
 from ..render.passes import LightPasses, Passes
-from ..scene import Scene
+from ..scene import Scene, shining
 from .resample import Band, Box, enlarge
 
 VEIL = np.float32(0.1)
@@ -102,8 +102,11 @@ class Illumination:
 
 
 def weigh(passes: Passes, scene: Scene) -> list[tuple[Floats, LightPasses]]:
-    """The sources with power, each with its weight: colour times power."""
-    weights = [hex_linear(light.colour) * np.float32(light.power) for light in scene.lights]
+    """The sources that shine, each with its weight: colour times power."""
+    weights = [
+        hex_linear(light.colour) * np.float32(light.power if shines else 0)
+        for light, shines in zip(scene.lights, shining(scene.lights), strict=True)
+    ]
     weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
     return [
         (weight, source)

@@ -16,10 +16,13 @@ from ..composite.resample import Band, enlarge
 from ..drawing import Drawing
 from ..prepared import PreparedDrawing
 from ..render import Passes
-from ..scene import MAX_LIGHTS, Scene
+from ..scene import Scene
 from ..shot import Shot, ShotFrame
 
 Floats = NDArray[np.float32]
+
+LEAST_LIGHTS = 4
+"""Layers of lights that every file has, so that they do not come and go between scenes."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,8 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
         "albedo": cover * linear(drawing.albedo),
     }
     dark = np.zeros_like(diffuse)
-    names = [f"light{number}" for number in range(1, MAX_LIGHTS + 1)] + ["ambient"]
+    count = max(LEAST_LIGHTS, len(scene.lights))
+    names = [f"light{number}" for number in range(1, count + 1)] + ["ambient"]
     colour.update(dict.fromkeys(names, dark))
     present = [*names[: len(passes.lights)], "ambient"]
     for name, source in zip(present, (*passes.lights, passes.ambient), strict=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..cache import digest
-from ..camera import IDENTITY, Affine
+from ..camera import IDENTITY, Affine, on_canvas
 from ..drawing import Frame, load_picture
 from ..scene import Canvas, Scene
 from ..shot import Cel, Picture, ShotFrame
@@ -41,7 +41,7 @@ class PictureShot:
         return Cel(load_picture(self._paths[frame.name]), self.mask, self.ink)
 
     def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
-        return replace(scene, canvas=Canvas(*size))
+        return on_canvas(scene, Canvas(*size))
 
     def camera(self, frame: ShotFrame) -> Affine:
         return IDENTITY

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..drawing import Drawing
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
 from ..render import QUALITIES, RenderChild, frame_request
-from ..scene import Scene
+from ..scene import Scene, shining
 from ..surface import Relief
 
 SUFFIXES = (".glb", ".blend")
@@ -37,7 +38,9 @@ def save_scene(drawing: Drawing, prepared: PreparedDrawing, scene: Scene, path: 
     if path.suffix.lower() == ".glb":
         _save_glb(prepared, relief, scene, path)
         return
-    request = frame_request(drawing.size, surface, scene)
+    shown = zip(scene.lights, shining(scene.lights), strict=True)
+    lit = replace(scene, lights=tuple(light for light, shines in shown if shines))
+    request = frame_request(drawing.size, surface, lit)
     ink = np.dstack([drawing.ink_colour, drawing.ink]).astype(np.float32)
     materials = MaterialTable.of(scene, prepared.palette.colours)
     _, worn = prepared.paint_at(relief)

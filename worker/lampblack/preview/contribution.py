@@ -15,7 +15,7 @@ from ..composite.resample import Box
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
 from ..render import Accumulate, Surface
-from ..scene import AreaLight, Canvas, Floor, Scene
+from ..scene import AreaLight, Canvas, Floor, Scene, shining
 from .refinement import REFINEMENT, RefinementLevel
 
 VERTICES = 250
@@ -71,7 +71,7 @@ def contributions_of(
 ) -> tuple[LightContribution, ...]:
     """The contributions of ``scene``: first those on the character, then those on the floor.
 
-    Lights without power are omitted.
+    Lights that do not shine, or have no power, are omitted.
 
     Args:
         scene: in pixels of the drawing.
@@ -81,7 +81,11 @@ def contributions_of(
     shared = scene.render_key(materials=False, sampling=False), materials.key
     floor = None if scene.floor is None else replace(scene.floor, extra={})
     whole = (0.0, 0.0, float(drawing.size[0]), float(drawing.size[1]))
-    lights = [(light, hex_linear(light.colour) * np.float32(light.power)) for light in scene.lights]
+    lights = [
+        (light, hex_linear(light.colour) * np.float32(light.power))
+        for light, shines in zip(scene.lights, shining(scene.lights), strict=True)
+        if shines
+    ]
     ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
     found = []
     for subject in ("character", "floor") if floor else ("character",):

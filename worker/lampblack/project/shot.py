@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..cache import digest
-from ..camera import Affine, look_through, scene_in_view
+from ..camera import Affine, look_through, on_canvas, scene_in_view
 from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import ProjectError
@@ -98,7 +98,7 @@ class ProjectShot:
         return tuple(found) if len(found) > 1 else ()
 
     def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
-        scene = replace(scene, canvas=self.canvas)
+        scene = on_canvas(scene, self.canvas)
         if self.region == Region(0, 0, self.canvas.width, self.canvas.height):
             return scene
         left, top = self.region.left, self.region.top

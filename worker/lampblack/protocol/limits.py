@@ -19,7 +19,7 @@ class Limits:
         frame_pixels: pixels of all planes of a message.
     """
 
-    header_bytes: int = 1 << 18
+    header_bytes: int = 1 << 19
     planes: int = 20
     plane_bytes: int = 1 << 28
     depth: int = 32

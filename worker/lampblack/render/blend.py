@@ -37,10 +37,10 @@ def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit
     stage.set_subject("character")
     objects = stage.scene.collection.objects
     bpy.data.objects.remove(objects["twin"])
-    lamp = objects["lamp"]
     for number, light in enumerate(job.lights, start=1):
-        _place_lamp(stage, lamp, light, job, f"light {number}")
-    bpy.data.objects.remove(lamp)
+        _place_light(stage, objects[light.kind], light, job, light.name or f"light {number}")
+    for kind in ("lamp", "sun"):
+        bpy.data.objects.remove(objects[kind])
     _set_ambient(stage, job)
     _assign_materials(objects["figure"], ink, diffuse, unlit, job)
     floor = objects["floor"]
@@ -55,10 +55,10 @@ def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit
     bpy.ops.wm.save_as_mainfile(filepath=job.path, copy=True, compress=True)
 
 
-def _place_lamp(stage: Stage, lamp: Any, light: AreaLight, job: SaveBlend, name: str) -> None:
+def _place_light(stage: Stage, made: Any, light: AreaLight, job: SaveBlend, name: str) -> None:
     stage.set_source(light, job.canvas)
-    copy = lamp.copy()
-    copy.data = lamp.data.copy()
+    copy = made.copy()
+    copy.data = made.data.copy()
     copy.name = copy.data.name = name
     copy.hide_render = False
     copy.data.color = hex_linear(light.colour)

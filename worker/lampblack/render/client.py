@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ..errors import RenderError
 from ..scene import Ambient, AreaLight
-from .passes import LightPasses, Passes
+from .passes import DARK, LightPasses, Passes
 from .request import RenderRequest, Surface
 from .wire import (
     Accumulate,
@@ -85,8 +85,7 @@ class RenderChild:
         """
         with self._conversation(request.surface):
             lights = tuple(self._trace(request, light) for light in request.lights)
-            dark = np.zeros((1, 1, 3), np.float32)
-            ambient = self._trace(request, None) if request.ambient else LightPasses(dark, dark)
+            ambient = self._trace(request, None) if request.ambient else DARK
             return Passes(lights, ambient)
 
     def accumulate(self, surface: Surface, job: Accumulate) -> tuple[NDArray[np.float32], ...]:

@@ -30,9 +30,14 @@ class LightPasses:
     open_floor: NDArray[np.float32] | None = None
 
 
+DARK = LightPasses(*(np.zeros((1, 1, 3), np.float32) for _ in range(2)))
+"""Stands for light that was not traced."""
+
+
 @dataclass(frozen=True)
 class Passes:
-    """One frame's light: ``lights[i]`` belongs to ``scene.lights[i]``."""
+    """One frame's light: ``lights[i]`` belongs to ``scene.lights[i]``, and is dark where that does
+    not shine."""
 
     lights: tuple[LightPasses, ...]
     ambient: LightPasses

@@ -57,6 +57,9 @@ class Stage:
         lamp.normalize = False
         self._lamp = self._add("lamp", lamp)
         self._lamp.visible_camera = False
+        self._sun = self._add("sun", bpy.data.lights.new("sun", "SUN"))
+        self._sun.data.energy = math.pi  # lights a facing surface to an irradiance of pi
+        self._sun.hide_render = True
         camera = bpy.data.cameras.new("camera")
         camera.type = "ORTHO"
         camera.clip_end = 2 * CAMERA_HEIGHT + FLOOR_REACH
@@ -122,17 +125,22 @@ class Stage:
         render.pixel_aspect_x, render.pixel_aspect_y = max(1, aspect), max(1, 1 / aspect)
 
     def set_source(self, light: AreaLight | None, canvas: Canvas) -> None:
-        """Turn on one source: a white area light of power 1, or the ambient light."""
-        self._lamp.hide_render = light is None
+        """Turn on one source: a white area light or sun of power 1, or the ambient light."""
+        self._lamp.hide_render = light is None or light.kind != "lamp"
+        self._sun.hide_render = light is None or light.kind != "sun"
         self._ambient.default_value = float(light is None)
-        if light is not None:
-            at = np.array([[light.x, light.y, light.z]], np.float32)
-            self._lamp.location = _to_blender(at, canvas)[0]
-            self._lamp.rotation_euler = (math.pi if light.z < 0 else 0, 0, 0)
-            radius = light.size / 2 / canvas.default_height
-            self._lamp.data.size = 2 * radius
-            # Radiance that lights a facing surface at distance 1 to an irradiance of pi.
-            self._lamp.data.energy = math.pi * (radius**2 + 1) / radius**2
+        if light is None:
+            return
+        at = _to_blender(np.array([[light.x, light.y, light.z]], np.float32), canvas)[0]
+        radius = light.size / 2 / canvas.default_height
+        if light.kind == "sun":
+            _set_sun(self._sun, at, radius)
+            return
+        self._lamp.location = at
+        self._lamp.rotation_euler = (math.pi if light.z < 0 else 0, 0, 0)
+        self._lamp.data.size = 2 * radius
+        # Radiance that lights a facing surface at distance 1 to an irradiance of pi.
+        self._lamp.data.energy = math.pi * (radius**2 + 1) / radius**2
 
     def set_subject(self, subject: Literal["character", "floor", "bare floor"]) -> None:
         """Choose what the camera sees. The other part is invisible but still reflects light.
@@ -205,6 +213,15 @@ def _ambient_strength(tree: Any) -> Any:
     white.inputs[2].default_value = 1
     tree.links.new(white.outputs[0], background["Color"])
     return background["Strength"]
+
+
+def _set_sun(sun: Any, at: Floats, radius: float) -> None:
+    """Let ``sun`` shine from the disk at ``at`` towards the origin; from the front, if it is there.
+    Cycles lights a facing surface alike for all angles up to half of the sky."""
+    distance = float(np.linalg.norm(at))
+    x, y, z = (0.0, 0.0, 1.0) if distance < 1e-6 else (at / distance).tolist()
+    sun.rotation_euler = (-math.asin(min(1.0, max(-1.0, y))), math.atan2(x, z), 0)
+    sun.data.angle = 2 * math.atan2(radius, distance)
 
 
 def _to_blender(points: Floats, canvas: Canvas) -> Floats:

@@ -15,7 +15,7 @@ from .document import (
     scene_schema,
 )
 from .floor import Floor, FloorKey
-from .lights import Ambient, AreaLight, LightKey
+from .lights import Ambient, AreaLight, LightKey, shining
 from .materials import Material
 from .scene import MAX_LIGHTS, VERSION, Canvas, Scene, default_light, default_scene
 from .values import MAX_KEYS, Colour
@@ -47,4 +47,5 @@ __all__ = [
     "encode_scene",
     "normalize_schema",
     "scene_schema",
+    "shining",
 ]

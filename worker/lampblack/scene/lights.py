@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any
 
 from msgspec import Meta
 
 from ..affects import Affects, marks_of, traced_part
-from .values import MAX_KEYS, Colour, Diameter, Extra, KeyFrame, Pixels, Strength
+from ..choices import LightKind
+from .values import MAX_KEYS, Colour, Diameter, Extra, KeyFrame, Pixels, Strength, Title
 
 
 @dataclass(frozen=True)
@@ -28,11 +29,18 @@ class LightKey:
 
 @dataclass(frozen=True)
 class AreaLight:
-    """A disk of light facing the paper point beneath it.
+    """A disk of light facing the paper point beneath it, or a sun.
 
     ``power`` 1 lights a white surface that faces it from the default height (half the
     canvas's long side) to exactly the drawn colour; light falls off with the square of the
     distance. ``z`` below 0 stands behind the paper.
+
+    A sun shines from its place towards the middle of the canvas, and on all of it alike: with
+    ``power`` 1 it lights a white surface that faces it to exactly the drawn colour, wherever that
+    is. The disk as it is seen from the middle of the canvas is the sun in the sky: only its
+    direction and its angle count.
+
+    Only lights that are ``on`` shine, and only those with ``solo`` if one of them has it.
 
     With ``keys``, in any order, it changes from each to the next, and holds before the first and
     after the last; its own values then count for nothing. Between two keys numbers change evenly,
@@ -46,6 +54,10 @@ class AreaLight:
     size: Diameter = 200.0
     colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
     power: Annotated[Strength, Affects.COMPOSITE] = 1.0
+    kind: LightKind = "lamp"
+    name: Annotated[Title, Affects.NOTHING] = ""
+    on: Annotated[bool, Affects.COMPOSITE] = True
+    solo: Annotated[bool, Affects.COMPOSITE] = False
     keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
     extra: Extra = field(default_factory=dict)
 
@@ -64,6 +76,12 @@ class AreaLight:
             if mark in {Affects.COMPOSITE, Affects.NOTHING}
         }
         return replace(self, **untraced)
+
+
+def shining(lights: Sequence[AreaLight]) -> list[bool]:
+    """For each of ``lights``, whether it shines among the others."""
+    alone = any(light.on and light.solo for light in lights)
+    return [light.on and (light.solo or not alone) for light in lights]
 
 
 @dataclass(frozen=True)

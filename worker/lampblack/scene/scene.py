@@ -17,7 +17,7 @@ from .materials import Material
 from .values import Colour, Extra
 
 VERSION = 1
-MAX_LIGHTS = 4
+MAX_LIGHTS = 8
 
 
 @dataclass(frozen=True)
