@@ -107,7 +107,7 @@ void SceneJson::faultNamesTheField_data()
     row(R"("lights": [{"x": 1, "y": 2}])", "lights.z: missing");
     row(R"("lights": [{"x": 1, "y": 2, "z": 100001}])", "lights.z: not a number from -100000 to 100000");
     row(R"("lights": [{"x": true, "y": 2, "z": 1}])", "lights.x: ");
-    row(R"("lights": [{},{},{},{},{}])", "lights: ");
+    row(R"("lights": [{},{},{},{},{},{},{},{},{}])", "lights: ");
     row(R"("ambient": null)", "ambient: not an object");
     row(R"("ambient": {"colour": "#FFFFFF"})", "ambient.colour: not of the form");
     row(R"("ambient": {"colour": "white"})", "ambient.colour: ");
