@@ -82,7 +82,9 @@ SAMPLES: dict[Sender, list[Tree]] = {
         {"type": "view", **LOOK, "show": "normals"},
         {"type": "get_palette", "request": 4, "frame": 12},
         {"type": "get_overlaps", "request": 6, "frame": 12},
-        RENDER | {"quality": "low", "keep_finished": True, "project": "/shots/walk.pclx"},
+        RENDER
+        | {"quality": "low", "keep_finished": True, "project": "/shots/walk.pclx"}
+        | {"apart": "ora"},
         {"type": "cancel", "request": 5},
         {"type": "bye", "reason": "The window was closed."},
     ],

@@ -12,6 +12,7 @@ import pytest
 import typer
 
 from lampblack.choices import (
+    ApartKind,
     BodyChoice,
     FileFormat,
     FrameLayers,
@@ -113,6 +114,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         bodies={name: random.choice(get_args(BodyChoice)) for name in few()},
         camera=random.choice(texts),
         layers=random.choice(get_args(FrameLayers)),
+        apart=random.choice(get_args(ApartKind)),
         steady=random.random() < 0.5,
         again=random.random() < 0.5,
     )

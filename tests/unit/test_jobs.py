@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from lampblack.cache import ArrayCache
+from lampblack.choices import ApartKind
 from lampblack.drawing import load_picture
 from lampblack.errors import RenderError
 from lampblack.pipeline import Pipeline
@@ -48,7 +49,9 @@ def client(served: Served) -> Iterator[Client]:
         yield client
 
 
-def render(client: Client, folder: Path, *, keep_finished: bool = False) -> int:
+def render(
+    client: Client, folder: Path, *, keep_finished: bool = False, apart: ApartKind = "none"
+) -> int:
     request = client.next_request()
     client.send(
         Render(
@@ -57,6 +60,7 @@ def render(client: Client, folder: Path, *, keep_finished: bool = False) -> int:
             output=str(folder / "%04d.png"),
             quality="low",
             keep_finished=keep_finished,
+            apart=apart,
         )
     )
     return request
@@ -72,6 +76,19 @@ def receive_until(client: Client, condition: Callable[[], bool]) -> None:
 
 def errors(client: Client) -> list[str]:
     return [message.code for message in client.seen if isinstance(message, ErrorMessage)]
+
+
+def test_a_job_takes_its_frames_apart(client: Client, tmp_path: Path) -> None:
+    render(client, tmp_path, apart="png")
+    done, _ = client.wait_for(Done)
+    assert (done.outcome, done.frames_done) == ("finished", FRAMES)
+    names = [f"{number:04d}.png" for number in range(1, FRAMES + 1)]
+    for folder in ("drawing", "shade", "light"):
+        assert sorted(path.name for path in (tmp_path / folder).iterdir()) == names
+    render(client, tmp_path, apart="exr")
+    done, _ = client.wait_for(Done)
+    assert done.outcome == "failed"
+    assert "--apart exr" in client.seen[-2].what  # type: ignore[attr-defined]
 
 
 def test_a_job_writes_its_frames_and_says_so(client: Client, tmp_path: Path) -> None:

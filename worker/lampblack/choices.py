@@ -18,6 +18,9 @@ LayerRole = Literal["character", "line", "background"]
 FrameLayers = Literal["all", "lit"]
 """The layers of a project that its frames show."""
 
+ApartKind = Literal["none", "ora", "png", "pencil2d", "exr"]
+"""Kinds of files that a lit frame is taken apart into."""
+
 FrontSide = Literal["left", "right", "joined"]
 """The side of a stroke that is in front, or none: the surface goes on across the stroke."""
 

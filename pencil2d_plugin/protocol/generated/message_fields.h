@@ -23,6 +23,12 @@ constexpr std::array<Choice<Format>, 3> FormatChoices = {
 constexpr std::array<Choice<Show>, 3> ShowChoices = {
     {{"lit", Show::Lit}, {"normals", Show::Normals}, {"relief", Show::Relief}}};
 
+constexpr std::array<Choice<ApartKind>, 5> ApartKindChoices = {{{"none", ApartKind::None},
+                                                                {"ora", ApartKind::Ora},
+                                                                {"png", ApartKind::Png},
+                                                                {"pencil2d", ApartKind::Pencil2d},
+                                                                {"exr", ApartKind::Exr}}};
+
 constexpr std::array<Choice<Outcome>, 3> OutcomeChoices = {
     {{"finished", Outcome::Finished}, {"cancelled", Outcome::Cancelled}, {"failed", Outcome::Failed}}};
 
@@ -151,6 +157,7 @@ template <class Fields> void describe(Fields& fields, Render& value)
     fields.choice("quality", value.quality, QualityChoices, Need::Optional);
     fields.boolean("keep_finished", value.keepFinished, Need::Optional);
     fields.text("project", value.project, 0, 1024, patterns().project, Need::Optional);
+    fields.choice("apart", value.apart, ApartKindChoices, Need::Optional);
 }
 
 template <class Fields> void describe(Fields& fields, Cancel& value)

@@ -42,6 +42,15 @@ enum class Show
     Relief
 };
 
+enum class ApartKind
+{
+    None,
+    Ora,
+    Png,
+    Pencil2d,
+    Exr
+};
+
 enum class Outcome
 {
     Finished,
@@ -177,6 +186,9 @@ struct Render
     bool keepFinished = false; ///< keep files that are up to date
     QString project = {};      ///< absolute path of a project: its saved frames are rendered instead of the
                                ///< announced drawings, through its first camera, with the lit layers only
+    ApartKind apart = ApartKind::None; ///< take each frame apart into layers for compositing: an OpenRaster
+                                       ///< file beside it, PNG in a folder for each layer, the same without
+                                       ///< blend modes for Pencil2D, or layers of the EXR
 };
 
 /// End the viewport or a job. A job answers done; unknown and ended requests are ignored.

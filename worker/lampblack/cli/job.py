@@ -17,7 +17,7 @@ from .outputs import check_suffix
 
 
 @with_settings(
-    *("input", "scene", "quality", "frames", "format", "character", "line", "background"),
+    *("input", "scene", "quality", "frames", "format", "apart", "character", "line", "background"),
     *("layer_body", "camera", "steady", "mask", "ink"),
 )
 def job(

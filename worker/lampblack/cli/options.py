@@ -58,6 +58,11 @@ OPTIONS: dict[str, Any] = {
         help="File with what is in front: the field depth of a scene. Replaces the scene's.",
     ),
     "format": typer.Option("--format", help="File format. Default: the pattern's, or png."),
+    "apart": typer.Option(
+        "--apart",
+        help="Take each frame apart into layers for compositing: an OpenRaster file, PNG in a "
+        "folder for each layer (pencil2d: without blend modes), or layers of the EXR.",
+    ),
     "character": typer.Option(
         "--character", metavar="LAYER", help="Project layer to light. May be repeated."
     ),

@@ -92,7 +92,7 @@ def seen_layers(shot: Shot, frame: ShotFrame, lit: Layers | NDArray[np.uint8]) -
     """The layers of the EXR of ``frame``, by name, as its camera sees them. A blank cel, (H, W, 4)
     sRGB, has only the picture."""
     if not isinstance(lit, Layers):
-        return {"": _scene_linear(shot.finish(frame, (lit / np.float32(255))))}
+        return {"": scene_linear(shot.finish(frame, (lit / np.float32(255))))}
     camera = shot.camera(frame)
     size = lit.lit.shape[1], lit.lit.shape[0]
     if shot.canvas is not None:
@@ -110,7 +110,7 @@ def seen_layers(shot: Shot, frame: ShotFrame, lit: Layers | NDArray[np.uint8]) -
     }
     layers = {name: look_through(layer, camera, size) for name, layer in seen.items()}
     layers["shadow"] = 1 - layers["shadow"]
-    return {"": _scene_linear(shot.finish(frame, lit.lit)), **layers}
+    return {"": scene_linear(shot.finish(frame, lit.lit)), **layers}
 
 
 def _spread(height: Floats, shape: tuple[int, int]) -> Floats:
@@ -121,7 +121,7 @@ def _spread(height: Floats, shape: tuple[int, int]) -> Floats:
     return np.pad(whole, ((0, rows), (0, columns)), "edge")[..., None]
 
 
-def _scene_linear(picture: Floats) -> Floats:
+def scene_linear(picture: Floats) -> Floats:
     """(H, W, 4) sRGB, straight, to scene-linear, premultiplied."""
     light = linear(picture[..., :3]) * picture[..., 3:]
     whole: Floats = np.concatenate([light, picture[..., 3:]], axis=2)

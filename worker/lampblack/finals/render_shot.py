@@ -6,24 +6,15 @@ is composited and written.
 
 from __future__ import annotations
 
-import shutil
 import warnings
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
-from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..atomic import atomic_path
-from ..composite import composite
 from ..errors import LampblackError, LampblackWarning, OutputError, RenderError
 from ..pipeline import Pipeline
 from ..shot import ShotFrame
-from .exr import save_exr
-from .layers import Layers, make_layers, seen_layers
-from .png import save_png
+from .frame_files import LitCel, copy_frame, save_frame
 from .prefetch import prefetch
 from .resolve import ResolvedJob
 from .tasks import Blank, Failed, Ready, RenderTask, StampedFrame, Traced, UpToDate, plan
@@ -175,7 +166,7 @@ class _Run:
                 for frame, _ in frames:
                     self._fail(frame, error)
             case Blank(frames, pixels, reason):
-                for frame in self._write(frames, lambda: pixels):
+                for frame in self._write(frames, lambda: LitCel.blank(pixels, self.job.targets)):
                     self.outcome.unlit.append(frame)
                     self.listener.on_blank(frame, reason)
                     self.listener.on_frame(frame, None, kept=False)
@@ -183,29 +174,28 @@ class _Run:
                 first, _ = ready.frames[0]
                 for sentence in ready.warnings:
                     self.listener.on_warning(first, sentence)
-                for frame in self._write(ready.frames, lambda: self._lit(task)):
+                for frame in self._write(ready.frames, lambda: LitCel.of(task, self.job.targets)):
                     self.listener.on_frame(frame, None, kept=False)
 
     def _write(
         self,
         frames: Sequence[StampedFrame],
-        lit: Callable[[], NDArray[np.uint8] | Layers],
+        lit: Callable[[], LitCel],
     ) -> Generator[ShotFrame, None, None]:
         """Write the frames of one lit cel; yields those whose files exist."""
-        made: NDArray[np.uint8] | Layers | None = None
-        written: dict[str, Path] = {}
+        made: LitCel | None = None
+        written: dict[str, ShotFrame] = {}
         for frame, stamp in frames:
             self.listener.on_progress(frame, 0.9)
             try:
                 if self.full is not None:
                     raise self.full
-                target = self.job.targets.path(frame)
                 if stamp in written:
-                    _copy(written[stamp], target)
+                    copy_frame(written[stamp], frame, self.job.targets)
                 else:
                     made = lit() if made is None else made
-                    self._save(frame, made, stamp)
-                    written[stamp] = target
+                    save_frame(self.job.shot, frame, made, self.job.targets, stamp)
+                    written[stamp] = frame
             except LampblackError as error:
                 if isinstance(error, OutputError):
                     self.full = error
@@ -217,23 +207,3 @@ class _Run:
     def _fail(self, frame: ShotFrame, error: LampblackError) -> None:
         self.outcome.failed.append((frame, error))
         self.listener.on_frame(frame, error, kept=False)
-
-    def _lit(self, traced: Traced) -> NDArray[np.uint8] | Layers:
-        prepared, scene = traced.task.prepared, traced.task.scene
-        if self.job.targets.kind == "png":
-            return composite(prepared.layers, traced.passes, scene)
-        return make_layers(prepared, scene, traced.passes)
-
-    def _save(self, frame: ShotFrame, lit: NDArray[np.uint8] | Layers, stamp: str) -> None:
-        shot, target = self.job.shot, self.job.targets.path(frame)
-        if self.job.targets.kind == "exr":
-            save_exr(target, seen_layers(shot, frame, lit), stamp)
-        else:
-            assert not isinstance(lit, Layers)
-            save_png(target, shot.finish(frame, lit), stamp)
-
-
-def _copy(source: Path, target: Path) -> None:
-    """Copy the file of another frame that has the same inputs."""
-    with atomic_path(target) as temporary:
-        shutil.copyfile(source, temporary)

@@ -61,7 +61,7 @@ def resolve_job(settings: RenderSettings, scene: Scene | None = None) -> Resolve
     Raises:
         LampblackError: an input is missing or malformed, or a source would be overwritten.
     """
-    targets = Targets(settings.output, settings.format)
+    targets = Targets(settings.output, settings.format, apart=settings.apart)
     resolved = resolve_shot(settings, scene)
     targets.prepare(resolved.frames, resolved.sources)
     options = PipelineOptions(settings.grids, settings.solver)

@@ -8,6 +8,7 @@ import msgspec
 
 from ..choices import (
     DEFAULT_GRIDS,
+    ApartKind,
     BodyChoice,
     FileFormat,
     FrameLayers,
@@ -30,6 +31,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         depth_hints: file of depth hints, in place of the scene's depth.
         frames: list such as ``1-20x2,25``; None is all.
         format: file format; None is that of ``output``, or PNG.
+        apart: files of the layers that each frame is taken apart into.
         mask, ink: picture files; see ``decompose_drawing``.
         grids: see ``PipelineOptions``.
         solver: method of inflation.
@@ -50,6 +52,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     depth_hints: str | None = None
     frames: str | None = None
     format: FileFormat | None = None
+    apart: ApartKind = "none"
     mask: str | None = None
     ink: str | None = None
     grids: int = DEFAULT_GRIDS

@@ -8,12 +8,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import get_args
 
-from ..choices import FileFormat
+from ..choices import ApartKind, FileFormat
+from ..composite.apart import LAYERS
 from ..errors import LampblackError
 from ..shot import ShotFrame
 from .exr import exr_stamp
+from .ora import ora_stamp
 from .png import png_stamp
 
+_STAMPS = {".png": png_stamp, ".exr": exr_stamp, ".ora": ora_stamp}
 _NUMBER = re.compile(r"%0?(\d?)d|#+")
 
 
@@ -25,9 +28,11 @@ class Targets:
         output: folder, pattern or file name.
         kind: file format; None is that of the pattern's suffix, or the first of ``kinds``.
         kinds: allowed file formats, as suffixes.
+        apart: kind of the files of layers of each frame.
 
     Raises:
-        LampblackError: the pattern's suffix is not in ``kinds``, or is not ``kind``.
+        LampblackError: the suffix is not in ``kinds``, or is not ``kind``, or does not fit
+            ``apart``.
     """
 
     def __init__(
@@ -35,6 +40,7 @@ class Targets:
         output: str,
         kind: str | None = None,
         kinds: tuple[str, ...] = get_args(FileFormat),
+        apart: ApartKind = "none",
     ) -> None:
         self._path = Path(output)
         number = list(_NUMBER.finditer(self._path.name))
@@ -51,7 +57,14 @@ class Targets:
             raise LampblackError(
                 f"{output} ends in .{suffix}, but --format says {kind}.", "Leave one of them out."
             )
-        self.kind = kind or (suffix if named else kinds[0])
+        usual = "exr" if apart == "exr" else kinds[0]
+        self.kind = kind or (suffix if named else usual)
+        if apart != "none" and (apart == "exr") != (self.kind == "exr"):
+            raise LampblackError(
+                f"--apart {apart} does not go with frames in {self.kind.upper()}.",
+                "Write PNG, or take EXR apart with --apart exr.",
+            )
+        self.apart = apart
         self._number = number[0] if number else None
         self._named = named
 
@@ -72,6 +85,24 @@ class Targets:
         return self._path.with_name(
             f"{name[: found.start()]}{frame.number:0{width}d}{name[found.end() :]}"
         )
+
+    def paths(self, frame: ShotFrame) -> list[Path]:
+        """All files of ``frame``: its layers, and last the frame itself."""
+        layers: list[Path] = []
+        if self.apart == "ora":
+            layers = [self.ora(frame)]
+        elif self.apart in ("png", "pencil2d"):
+            layers = [self.layer(frame, name) for name, _ in LAYERS]
+        return [*layers, self.path(frame)]
+
+    def ora(self, frame: ShotFrame) -> Path:
+        """The OpenRaster file of ``frame``."""
+        return self.path(frame).with_suffix(".ora")
+
+    def layer(self, frame: ShotFrame, name: str) -> Path:
+        """The file of one layer of ``frame``, in a folder named after the layer."""
+        path = self.path(frame)
+        return path.parent / name / path.name
 
     def prepare(self, frames: Sequence[ShotFrame], sources: Sequence[Path]) -> None:
         """Create the folder. Jobs that would lose a file are refused before any work.
@@ -97,6 +128,8 @@ class Targets:
             )
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
+            for path in self.paths(frames[0])[:-1] if frames else ():
+                path.parent.mkdir(exist_ok=True)
             folder = self.folder.resolve()
         except OSError as error:
             raise LampblackError(
@@ -108,14 +141,13 @@ class Targets:
                 f"{self.folder} holds the drawings themselves; they would be replaced.",
                 "Choose another output folder.",
             )
-        for frame in frames:
-            if self.path(frame).resolve() in beside:
+        inputs = {source.resolve() for source in sources}
+        for path in (path for frame in frames for path in self.paths(frame)):
+            if path.resolve() in inputs:
                 raise LampblackError(
-                    f"{self.path(frame)} is one of the inputs; it would be lost.",
-                    "Choose another output.",
+                    f"{path} is one of the inputs; it would be lost.", "Choose another output."
                 )
 
     def holds(self, frame: ShotFrame, stamp: str) -> bool:
-        """Whether the file of ``frame`` is up to date: complete, and with this ``stamp``."""
-        read = exr_stamp if self.kind == "exr" else png_stamp
-        return read(self.path(frame)) == stamp
+        """Whether the files of ``frame`` are up to date: complete, and with this ``stamp``."""
+        return all(_STAMPS[path.suffix.lower()](path) == stamp for path in self.paths(frame))

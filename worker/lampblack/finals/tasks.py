@@ -190,7 +190,10 @@ class _Planner:
     def _stamp(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> str:
         names = frame.drawing, self._neighbours.names(frame), frame.setting
         hinted = self._hints.names(frame, scene)
-        made_from = (self._made_by, self._job.targets.kind, *names, *hinted)
+        targets = self._job.targets
+        # Only an EXR has its layers in the same file.
+        kind = "exr apart" if targets.apart == "exr" else targets.kind
+        made_from = (self._made_by, kind, *names, *hinted)
         return digest(*made_from, canvas, encode_scene(scene))
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from ..choices import QualityName
+from ..choices import ApartKind, QualityName
 from .fields import Count, FrameNumber, Message, Request
 
 Outcome = Literal["finished", "cancelled", "failed"]
@@ -44,6 +44,15 @@ class Render(Message, frozen=True, kw_only=True):
             extra_json_schema={"x-unit": "path", "x-since": "1.1"},
         ),
     ] = ""
+    apart: Annotated[
+        ApartKind,
+        Meta(
+            description="take each frame apart into layers for compositing: an OpenRaster file "
+            "beside it, PNG in a folder for each layer, the same without blend modes for Pencil2D, "
+            "or layers of the EXR",
+            extra_json_schema={"x-since": "1.3"},
+        ),
+    ] = "none"
 
 
 class Progress(Message, frozen=True, kw_only=True):

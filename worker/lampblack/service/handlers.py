@@ -62,7 +62,7 @@ def _hello(service: Service, identity: bytes, message: Hello) -> None:
             minor=MINOR,
             session=session.name,
             worker_version=__version__,
-            capabilities=("layers",),
+            capabilities=("layers", "apart"),
         ),
     )
     service.hurry_status()

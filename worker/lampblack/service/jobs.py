@@ -169,6 +169,7 @@ class Jobs:
                 quality=message.quality,
                 frames=message.frames,
                 layers="lit",
+                apart=message.apart,
                 again=not message.keep_finished,
             )
             resolved = resolve_job(settings, job.scene)
@@ -182,8 +183,8 @@ class Jobs:
         )
         wanted = set(job.frames)
         frames = [frame for frame in shot.frames if frame.number in wanted]
-        targets = Targets(message.output)
         try:
+            targets = Targets(message.output, apart=message.apart)
             targets.prepare(frames, [])
         except LampblackError as error:
             raise OutputError(error.what, error.remedy, error.details) from error
