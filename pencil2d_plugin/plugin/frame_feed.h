@@ -37,13 +37,15 @@ public:
     void requestAll(int first, int last);
     void cancelAll();
 
+    /// Export the current frame if it is out of date; otherwise frameSent() is emitted.
+    void requestCurrent();
+
 Q_SIGNALS:
     void frameSent(int frame);     ///< the worker has the frame as it is drawn now
     void frameOutdated(int frame); ///< the frame's drawing has changed
     void frameFailed(int frame, const lampblack::UserError& error);
 
 private:
-    void requestCurrent();
     void cancelRequests();
     void onFrameExported(const FrameExport& frame, const DrawnLayers& layers);
     void invalidate(int frame);

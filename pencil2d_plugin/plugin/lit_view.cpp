@@ -3,7 +3,9 @@
 #include <QEvent>
 #include <QtMath>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lampblack
 {
@@ -12,7 +14,9 @@ namespace
 {
 
 constexpr int MaxKiB = 256 * 1024;
-constexpr double MaxSide = 4096; // pixels
+constexpr double MaxSide = 4096;     // pixels
+constexpr int FirstPatienceMs = 700; ///< after which a picture is asked for again, twice as long each time
+constexpr int LongestPatienceMs = 20000;
 
 /// The part of an image of `size` that `widget` shows, grown to whole pixels.
 QRectF visibleCrop(const QTransform& imageToWidget, const QWidget& widget, const QSize& size)
@@ -42,36 +46,19 @@ LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit
 {
     mRequestTimer.setSingleShot(true);
     mRequestTimer.setInterval(0);
+    mPatience.setSingleShot(true);
+    mPatience.setInterval(FirstPatienceMs);
     connect(&mRequestTimer, &QTimer::timeout, this, &LitView::requestPicture);
+    connect(&mPatience, &QTimer::timeout, this, &LitView::askAgain);
     connect(&host, &Host::viewChanged, this, &LitView::onViewChanged);
     connect(&host, &Host::frameChanged, this, &LitView::onViewChanged);
     connect(&host, &Host::toolActivated, this, &LitView::onViewChanged);
-    connect(&feed, &FrameFeed::frameSent, this,
-            [this](int frame)
-            {
-                if (frame == mHost.currentFrame())
-                    onViewChanged();
-            });
-    connect(&feed, &FrameFeed::frameOutdated, this,
-            [this](int frame)
-            {
-                mPictures.remove(frame);
-                if (frame == mHost.currentFrame())
-                    mTool.clearPicture();
-            });
-    connect(&unlit, &UnlitLayers::loaded, this,
-            [this](int frame)
-            {
-                if (frame == mHost.currentFrame())
-                    showCached(frame);
-            });
-    connect(&tool, &LampTool::viewModeChanged, this,
-            [this]
-            {
-                mPictures.clear();
-                mTool.clearPicture();
-                onViewChanged();
-            });
+    connect(&host, &Host::projectOpened, this, &LitView::forgetPictures);
+    connect(&feed, &FrameFeed::frameSent, this, &LitView::onFrameChanged);
+    connect(&feed, &FrameFeed::frameOutdated, this, &LitView::onFrameChanged);
+    connect(&unlit, &UnlitLayers::loaded, this, &LitView::onFrameChanged);
+    connect(&worker, &Worker::drawingKnown, this, &LitView::onFrameChanged);
+    connect(&tool, &LampTool::viewModeChanged, this, &LitView::forgetPictures);
     connect(&worker, &Worker::imageArrived, this, &LitView::onImageArrived);
     host.canvas()->installEventFilter(this);
 }
@@ -88,27 +75,63 @@ bool LitView::isShowing() const
     return mTool.isActive() && mTool.viewMode() && mHost.can(Host::Ability::View);
 }
 
+void LitView::forgetPictures()
+{
+    mPictures.clear();
+    mTool.clearPicture();
+    onViewChanged();
+}
+
 void LitView::onViewChanged()
 {
-    const int frame = mHost.currentFrame();
-    if (frame != mShownFrame)
-    {
-        mShownFrame = frame;
-        showCached(frame);
-    }
+    mPatience.setInterval(FirstPatienceMs);
+    onFrameChanged(mHost.currentFrame());
+}
+
+void LitView::onFrameChanged(int frame)
+{
+    if (frame != mHost.currentFrame())
+        return;
+    show();
     mRequestTimer.start();
 }
 
-void LitView::showCached(int frame)
+void LitView::onSceneSent()
 {
-    const PreviewImage* cached = mPictures.object(frame);
-    if (!isShowing() || !cached || !mWorker.isCurrent(*cached) || !mUnlit.isLoaded(frame))
+    mPatience.setInterval(FirstPatienceMs);
+    show();
+}
+
+void LitView::show()
+{
+    const int frame = mHost.currentFrame();
+    if (!isShowing())
     {
+        mPatience.stop();
         mTool.clearPicture();
+        mTool.setLit(true); // it is what the artist wants to see
         return;
     }
-    mTool.setUnlitLayers(mUnlit.below(frame), mUnlit.above(frame));
-    mTool.setPicture(*cached);
+    const PreviewImage* cached = mPictures.object(frame);
+    const bool isKnown = mFeed.isUpToDate(frame);
+    const auto fit = cached != nullptr ? mWorker.fit(*cached) : Worker::Fit::OldDrawing;
+    const bool isLit = isKnown && fit == Worker::Fit::Current && mUnlit.isLoaded(frame);
+    const bool isOld = cached == nullptr || (isKnown && fit == Worker::Fit::OldDrawing);
+    if (isLit || (!isOld && frame != mShownFrame))
+    {
+        mTool.setUnlitLayers(mUnlit.below(frame), mUnlit.above(frame));
+        mTool.setPicture(*cached);
+    }
+    else if (isOld)
+    {
+        mTool.clearPicture();
+    }
+    mShownFrame = frame;
+    mTool.setLit(isLit);
+    if (isLit)
+        mPatience.stop();
+    else if (!mPatience.isActive())
+        mPatience.start();
 }
 
 void LitView::requestPicture()
@@ -118,7 +141,6 @@ void LitView::requestPicture()
     if (!isShowing() || !canvasToWidget)
     {
         mWorker.cancelPreview();
-        mTool.clearPicture();
         return;
     }
     const FrameExport exported = mFeed.lastExport(frame);
@@ -135,16 +157,27 @@ void LitView::requestPicture()
                                deviceSize(imageToWidget, *mHost.canvas(), crop));
 }
 
+void LitView::askAgain()
+{
+    // An answer may have been lost on its way. A busy worker has not forgotten.
+    if (mWorker.state() == Worker::State::Ready)
+        mWorker.cancelPreview();
+    if (!mFeed.isUpToDate(mHost.currentFrame()))
+        mFeed.requestCurrent();
+    requestPicture();
+    mPatience.start(std::min(2 * mPatience.interval(), LongestPatienceMs));
+}
+
 void LitView::onImageArrived(const PreviewImage& image)
 {
     if (!isShowing() || image.show != mTool.viewMode())
         return;
-    if (image.frame == mHost.currentFrame() && mUnlit.isLoaded(image.frame))
-    {
-        mTool.setUnlitLayers(mUnlit.below(image.frame), mUnlit.above(image.frame));
-        mTool.setPicture(image);
-    }
     mPictures.insert(image.frame, new PreviewImage(image), int(image.picture.sizeInBytes() / 1024) + 1);
+    if (image.frame != mHost.currentFrame() || !mUnlit.isLoaded(image.frame))
+        return;
+    mTool.setUnlitLayers(mUnlit.below(image.frame), mUnlit.above(image.frame));
+    mTool.setPicture(image);
+    show();
 }
 
 } // namespace lampblack

@@ -1,4 +1,4 @@
-// Shows the current frame as the worker lights it.
+// Keeps the current frame lit on the canvas.
 #pragma once
 
 #include "host/host.h"
@@ -14,8 +14,11 @@ namespace lampblack
 {
 
 /// Requests the visible crop at device resolution, and passes the pictures that arrive to the tool. Pictures
-/// are cached by frame, so that playback is lit. A frame is shown as drawn while its picture is out of date
-/// or its unlit layers are not loaded.
+/// are cached by frame, so that playback is lit.
+///
+/// The rule: while the lamp shows the light, the canvas is lit. A picture that shows the frame's drawing
+/// under the scene as they are is *current*. Without one, one is asked for, again and again; until it comes,
+/// the last picture of the drawing stays, and the tool is told that the frame is not lit yet.
 class LitView : public QObject
 {
     Q_OBJECT
@@ -26,11 +29,17 @@ public:
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 
+    /// Call after the scene was sent to the worker.
+    void onSceneSent();
+
 private:
     void onViewChanged();
+    void onFrameChanged(int frame);
     void requestPicture();
     void onImageArrived(const PreviewImage& image);
-    void showCached(int frame);
+    void show();
+    void askAgain();
+    void forgetPictures();
     bool isShowing() const;
 
     Host& mHost;
@@ -39,6 +48,7 @@ private:
     UnlitLayers& mUnlit;
     LampTool& mTool;
     QTimer mRequestTimer;                ///< joins the changes of one turn of the event loop into one request
+    QTimer mPatience;                    ///< runs while the current frame is not lit
     QCache<int, PreviewImage> mPictures; ///< by frame, cost in KiB
     int mShownFrame = 0;
 };

@@ -105,6 +105,7 @@ void Studio::sendScene()
 {
     mWorker->setScene(mDocument.scene());
     mSentRevision = mWorker->revision();
+    mView->onSceneSent();
 }
 
 void Studio::onPaletteArrived(int frame, const QVector<Swatch>& swatches)

@@ -192,8 +192,6 @@ void LampTool::setViewMode(std::optional<Show> mode)
 {
     if (mPanel)
         mPanel->setViewMode(mode);
-    if (mOverlay)
-        mOverlay->clearPicture();
     updateInput();
     Q_EMIT viewModeChanged();
 }
@@ -230,6 +228,12 @@ void LampTool::clearPicture()
 {
     if (mOverlay)
         mOverlay->clearPicture();
+}
+
+void LampTool::setLit(bool lit)
+{
+    if (mPanel)
+        mPanel->setLit(lit);
 }
 
 void LampTool::setUnlitLayers(const FrameExport& below, const FrameExport& above)

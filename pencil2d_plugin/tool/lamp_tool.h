@@ -55,6 +55,8 @@ public Q_SLOTS:
     /// Show a picture instead of the drawing. It is ignored if viewMode() is another one.
     void setPicture(const lampblack::PreviewImage& picture);
     void clearPicture();
+    /// Whether the picture is what the artist has asked for; otherwise the state is never Ready.
+    void setLit(bool lit);
 
     /// The unlit layers under and over the lit ones; null images for none.
     void setUnlitLayers(const lampblack::FrameExport& below, const lampblack::FrameExport& above);

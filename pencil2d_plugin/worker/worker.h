@@ -72,8 +72,16 @@ public:
     /// Revision of the scene last sent, to compare with PreviewImage::revision.
     virtual quint64 revision() const = 0;
 
-    /// Whether a picture still shows the current drawing of its frame under the current scene.
-    virtual bool isCurrent(const PreviewImage& image) const = 0;
+    /// How a picture fits what its frame shows now.
+    enum class Fit
+    {
+        Unknown,    ///< the frame was dropped, or its new drawing has no digest yet
+        OldDrawing, ///< the frame shows another drawing now
+        OldScene,
+        Current
+    };
+    virtual Fit fit(const PreviewImage& image) const = 0;
+    bool isCurrent(const PreviewImage& image) const { return fit(image) == Fit::Current; }
 
     /// Ask for pictures of `crop` (view pixels) of a frame, `size` device pixels large. imageArrived() is
     /// emitted for each, also after every change of scene or drawing, until cancelPreview() or another
@@ -95,6 +103,7 @@ public:
 Q_SIGNALS:
     void stateChanged(lampblack::Worker::State state);
     void imageArrived(const lampblack::PreviewImage& image);
+    void drawingKnown(int frame); ///< after putFrame(): fit() knows this drawing now
     /// The worker needs the drawing of `frame`, whose pixels are no longer in memory: call putFrame() again.
     void frameNeeded(int frame);
     void paletteArrived(int frame, const QVector<lampblack::Swatch>& swatches);

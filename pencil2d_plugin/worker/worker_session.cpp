@@ -129,12 +129,20 @@ void WorkerSession::setScene(const Scene& scene)
     }
 }
 
-bool WorkerSession::isCurrent(const PreviewImage& image) const
+Worker::Fit WorkerSession::fit(const PreviewImage& image) const
 {
     const auto shown = mFrameStore.frames().constFind(image.frame);
-    return shown != mFrameStore.frames().constEnd() && shown->digest == image.digest &&
-           (image.show == Show::Lit ? mSceneRevisions.contains(image.revision)
-                                    : image.revision >= mDepthRevision);
+    if (shown == mFrameStore.frames().constEnd())
+    {
+        return Fit::Unknown;
+    }
+    if (shown->digest != image.digest)
+    {
+        return Fit::OldDrawing;
+    }
+    const bool isOfScene =
+        image.show == Show::Lit ? mSceneRevisions.contains(image.revision) : image.revision >= mDepthRevision;
+    return isOfScene ? Fit::Current : Fit::OldScene;
 }
 
 void WorkerSession::requestPreview(int frame, Show show, const QRectF& crop, const QSize& size)

@@ -37,7 +37,7 @@ public:
     void dropAllFrames() override;
     void setScene(const Scene& scene) override;
     quint64 revision() const override { return mRevision; }
-    bool isCurrent(const PreviewImage& image) const override;
+    Fit fit(const PreviewImage& image) const override;
     void requestPreview(int frame, Show show, const QRectF& crop, const QSize& size) override;
     void cancelPreview() override;
     void requestPalette(int frame) override;

@@ -180,6 +180,7 @@ void WorkerSession::onFrameHashed(int frame, bool changed)
     }
     sendQuestions();
     sendJobs();
+    Q_EMIT drawingKnown(frame);
 }
 
 } // namespace lampblack

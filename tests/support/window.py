@@ -197,6 +197,16 @@ class Pencil2D:
         """Histogram of the event loop's turns since the last call."""
         return self._ask({"do": "stalls"})
 
+    def watch(self, colours: list[str]) -> list[tuple[float, float]]:
+        """Watch the canvas for pixels of exactly these colours from now on; none: no longer.
+
+        Returns:
+            of the watch before: the milliseconds since its start and the share of the canvas's
+            pixels, whenever that changed.
+        """
+        asked = {"do": "watch", "name": "ScribbleArea", "colours": colours}
+        return [(at, share) for at, share in self._ask(asked)["taken"]]
+
     def latency(self, name: str) -> list[float]:
         """Milliseconds from mouse moves to lit pixels since the last call."""
         return list(self._ask({"do": "latency", "name": name})["milliseconds"])

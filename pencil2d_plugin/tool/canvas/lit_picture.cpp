@@ -5,9 +5,12 @@ namespace lampblack
 
 void LitPicture::setPicture(const PreviewImage& image, const QTransform& canvasToImage)
 {
+    const bool isSame = image.picture.cacheKey() == mImage.picture.cacheKey() && image.crop == mImage.crop &&
+                        canvasToImage == mCanvasToImage;
     mImage = image;
     mCanvasToImage = canvasToImage;
-    mCache = QPixmap();
+    if (!isSame)
+        mCache = QPixmap();
 }
 
 void LitPicture::setUnlitLayers(const FrameExport& below, const FrameExport& above)

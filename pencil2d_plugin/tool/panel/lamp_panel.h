@@ -26,6 +26,7 @@ public:
     std::optional<Show> viewMode() const; ///< see LampTool::viewMode()
     void setViewMode(std::optional<Show> mode);
     void setWorkerState(Worker::State state) { mWorkerLine->setState(state); }
+    void setLit(bool lit) { mWorkerLine->setLit(lit); } ///< see LampTool::setLit()
     void showProblem(const UserError& error);
     RenderSection* render() { return mRender; }
 

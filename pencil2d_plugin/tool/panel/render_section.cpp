@@ -124,7 +124,20 @@ WorkerLine::WorkerLine(QWidget* parent) : QWidget(parent), mText(new QLabel(this
 
 void WorkerLine::setState(Worker::State state)
 {
-    switch (state)
+    mState = state;
+    refresh();
+}
+
+void WorkerLine::setLit(bool lit)
+{
+    mLit = lit;
+    refresh();
+}
+
+void WorkerLine::refresh()
+{
+    const bool isWaiting = mState == Worker::State::Ready && !mLit;
+    switch (isWaiting ? Worker::State::Busy : mState)
     {
     case Worker::State::Absent:
         mText->setText(tr("No light yet"));

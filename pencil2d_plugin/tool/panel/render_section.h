@@ -60,13 +60,19 @@ public:
     explicit WorkerLine(QWidget* parent = nullptr);
 
     void setState(Worker::State state);
+    /// While the frame is not lit, a worker that is ready is at work for the artist.
+    void setLit(bool lit);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    void refresh();
+
     QLabel* mText;
     QColor mDot;
+    Worker::State mState = Worker::State::Absent;
+    bool mLit = true;
 };
 
 } // namespace lampblack

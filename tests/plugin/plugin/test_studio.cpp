@@ -15,6 +15,14 @@ class StudioPreviewTest : public StudioTest
     Q_OBJECT
 
 private:
+    bool isReady() const { return find<QLabel>("panel.worker")->text() == QStringLiteral("Ready"); }
+    /// The host reads what was asked for of frame 1: it shows `drawing`.
+    void exportAll(const QImage& drawing)
+    {
+        const QStringList layers = mHost->mRequests.last().layers;
+        for (const QStringList& each : {QStringList(layers[0]), QStringList(layers[1]), layers})
+            Q_EMIT mHost->frameExported({1, drawing, {}, each});
+    }
     /// Use the lamp until the picture of the current frame is shown.
     void openLit()
     {
@@ -94,8 +102,7 @@ private Q_SLOTS:
     void newDrawingReplacesThePicture()
     {
         openLit();
-        const PreviewImage old = mWorker->pictureOf(1);
-        Q_EMIT mHost->drawingChanged(1);
+        draw();
         QCOMPARE(mWorker->mPut, (QVector<int>{1, 1}));
         QCOMPARE(mWorker->mPalettes, (QVector<int>{1, 1}));
         QVERIFY(!showsPicture());
@@ -105,6 +112,62 @@ private Q_SLOTS:
         QVERIFY2(!showsPicture(), "the picture of the old drawing is not kept");
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
         QVERIFY(showsPicture() && mStudio->isSettled());
+    }
+
+    void drawingThatStaysTheSameStaysLit()
+    {
+        // A selection made and lifted, or a project saved under another name.
+        openLit();
+        mHost->mDraw = {};
+        Q_EMIT mHost->drawingChanged(1);
+        QVERIFY2(showsPicture(), "until it is known what the frame shows");
+        QVERIFY(!isReady());
+        exportAll(mWorker->mKnown[1]);
+        QVERIFY(showsPicture() && mStudio->isSettled() && isReady());
+    }
+
+    void layersThatComeAndGoLeaveTheLight()
+    {
+        openLit();
+        mHost->mDraw = {};
+        const QImage drawing = mWorker->mKnown[1];
+        Q_EMIT mHost->layersChanged();
+        QCOMPARE(mWorker->mDropped, 1);
+        QVERIFY(showsPicture() && !isReady());
+        exportAll(drawing);
+        QVERIFY(showsPicture() && mStudio->isSettled());
+    }
+
+    void anotherProjectIsNotShownInTheLightOfTheLast()
+    {
+        openLit();
+        mHost->mDraw = {};
+        Q_EMIT mHost->projectOpened({});
+        QVERIFY(!showsPicture() && !isReady());
+    }
+
+    void pictureThatDoesNotComeIsAskedForAgain()
+    {
+        mHost->open();
+        QTRY_COMPARE(mWorker->mPreviews.size(), 1);
+        QVERIFY(!isReady());
+        const int cancelled = mWorker->mPreviewsCancelled;
+        QTRY_COMPARE(mWorker->mPreviews.size(), 2);
+        QCOMPARE(mWorker->mPreviewsCancelled, cancelled + 1); // so that the second is not taken for the first
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(isReady());
+        mHost->goToFrame(2);
+        QVERIFY2(!isReady(), "nothing is Ready while the frame is not lit");
+        QTRY_COMPARE(mWorker->mPreviews.last().frame, 2);
+    }
+
+    void flatViewIsReady()
+    {
+        openLit();
+        find<QAbstractButton>("panel.view.flat")->click();
+        QVERIFY(!showsPicture() && isReady());
+        mHost->goToFrame(2);
+        QVERIFY(isReady());
     }
 
     void drawingThatTheWorkerLacksIsSentAgain()
@@ -140,7 +203,8 @@ private Q_SLOTS:
         QVERIFY(showsPicture());
         setPower(2.5);
         mHost->goToFrame(2);
-        QVERIFY2(!showsPicture(), "it shows the scene as it was");
+        QVERIFY2(showsPicture(), "the last light is better than none");
+        QVERIFY2(!isReady() && !mStudio->isSettled(), "it shows the scene as it was");
     }
 
     void pictureOfAnotherViewIsNotShown()
@@ -249,8 +313,8 @@ private Q_SLOTS:
         QCOMPARE(sentPower(), 2.5);
 
         mWorker->setState(Worker::State::Ready);
-        QCOMPARE(line->text(), ready);
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QCOMPARE(line->text(), ready);
         QVERIFY(showsPicture() && mStudio->isSettled());
     }
 

@@ -2,6 +2,7 @@
 //
 // Each line is a JSON object: a request or its answer. The probe only looks and measures. Mouse and keyboard
 // events are sent by the test through the X server, like those of an artist.
+#include "sightings.h"
 #include "stalls.h"
 
 #include <QAbstractButton>
@@ -144,7 +145,7 @@ private:
 class Probe : public QObject
 {
 public:
-    explicit Probe(const QString& name) : mStalls(this)
+    explicit Probe(const QString& name) : mStalls(this), mSightings(this)
     {
         connect(&mServer, &QLocalServer::newConnection, this, &Probe::serve);
         mServer.listen(name);
@@ -222,6 +223,15 @@ private:
             qApp->installEventFilter(&mLatency);
             return {{QStringLiteral("milliseconds"), taken}};
         }
+        if (command == QLatin1String("watch"))
+        {
+            const QJsonArray taken = mSightings.taken();
+            QVector<QColor> colours;
+            for (const QJsonValue colour : request.value(QStringLiteral("colours")).toArray())
+                colours.append(QColor(colour.toString()));
+            mSightings.watch(colours.isEmpty() ? nullptr : ofClass(name), colours);
+            return {{QStringLiteral("taken"), taken}};
+        }
         if (command == QLatin1String("grab"))
         {
             auto* widget = qobject_cast<QWidget*>(named(name));
@@ -264,6 +274,7 @@ private:
 
     QLocalServer mServer;
     Stalls mStalls;
+    Sightings mSightings;
     Latency mLatency;
 };
 

@@ -3,6 +3,7 @@
 
 #include "worker/worker.h"
 
+#include <QCryptographicHash>
 #include <QFile>
 #include <QtTest>
 
@@ -23,21 +24,38 @@ public:
     State state() const override { return mState; }
     void start() override { ++mStarted; }
     void stop() override { ++mStopped; }
-    void putFrame(int frame, const QImage&, const QTransform&, const DrawnLayers& layers) override
+    void putFrame(int frame, const QImage& image, const QTransform&, const DrawnLayers& layers) override
     {
         mPut.append(frame);
         mLayers.append(layers);
+        mKnown.insert(frame, image);
+        // Later, as from a thread.
+        QMetaObject::invokeMethod(
+            this, [this, frame] { Q_EMIT drawingKnown(frame); }, Qt::QueuedConnection);
     }
-    /// What each drawing put is known by: how many there were of its frame.
-    QByteArray digestOf(int frame) const { return QByteArray::number(mPut.count(frame)); }
-    void dropFrame(int) override {}
-    void dropAllFrames() override { ++mDropped; }
+    QByteArray digestOf(int frame) const
+    {
+        const QImage image = mKnown.value(frame);
+        return QCryptographicHash::hash(
+            QByteArray::fromRawData(reinterpret_cast<const char*>(image.constBits()),
+                                    int(image.sizeInBytes())),
+            QCryptographicHash::Sha1);
+    }
+    void dropFrame(int frame) override { mKnown.remove(frame); }
+    void dropAllFrames() override
+    {
+        ++mDropped;
+        mKnown.clear();
+    }
     void setScene(const Scene& scene) override { mScenes.append(scene); }
     quint64 revision() const override { return quint64(mScenes.size()); }
-    bool isCurrent(const PreviewImage& image) const override
+    Fit fit(const PreviewImage& image) const override
     {
-        return image.digest == digestOf(image.frame) &&
-               (image.show != Show::Lit || image.revision == revision());
+        if (!mKnown.contains(image.frame))
+            return Fit::Unknown;
+        if (image.digest != digestOf(image.frame))
+            return Fit::OldDrawing;
+        return image.show != Show::Lit || image.revision == revision() ? Fit::Current : Fit::OldScene;
     }
     void requestPreview(int frame, Show show, const QRectF& crop, const QSize& size) override
     {
@@ -92,6 +110,7 @@ public:
     int mStarted = 0;
     int mStopped = 0;
     QVector<int> mPut;
+    QMap<int, QImage> mKnown;     ///< the drawing of each frame that was not dropped
     QVector<DrawnLayers> mLayers; ///< of each that was put
     int mDropped = 0;             ///< how often all frames were
     QVector<Scene> mScenes;

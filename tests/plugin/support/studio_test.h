@@ -18,11 +18,17 @@ class StudioTest : public QObject
     Q_OBJECT
 
 protected:
-    static QImage drawing()
+    static QImage drawing(const QColor& colour = Qt::white)
     {
         QImage image(400, 300, QImage::Format_RGBA8888);
-        image.fill(Qt::white);
+        image.fill(colour);
         return image;
+    }
+    /// A stroke has ended that changed the current frame.
+    void draw()
+    {
+        ++mStrokes;
+        Q_EMIT mHost->drawingChanged(mHost->currentFrame());
     }
     template <class Widget> Widget* find(const char* name) const
     {
@@ -41,6 +47,7 @@ protected:
     std::unique_ptr<FakeHost> mHost;
     FakeWorker* mWorker = nullptr; ///< the studio's own
     std::unique_ptr<Studio> mStudio;
+    int mStrokes = 0;
 
 private Q_SLOTS:
     void init()
@@ -49,9 +56,10 @@ private Q_SLOTS:
         mHost = std::make_unique<FakeHost>();
         mHost->mProject = mFolder->filePath(QStringLiteral("walk.pclx"));
         QVERIFY(QFile(mHost->mProject).open(QFile::WriteOnly));
-        mHost->mDraw = [](int, const QStringList&)
+        mStrokes = 0;
+        mHost->mDraw = [this](int frame, const QStringList&)
         {
-            return QImage(400, 300, QImage::Format_RGBA8888);
+            return drawing(QColor::fromHsv(mStrokes, 100 + frame, 200));
         };
         auto worker = std::make_unique<FakeWorker>();
         mWorker = worker.get();
