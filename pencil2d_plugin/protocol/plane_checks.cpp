@@ -12,7 +12,7 @@ bool rolesAllowed(const Message& message, const QVector<Plane>& planes)
     QVector<Role> roles;
     std::transform(planes.begin(), planes.end(), std::back_inserter(roles),
                    [](const Plane& plane) { return plane.role; });
-    if (std::holds_alternative<Image>(message))
+    if (std::holds_alternative<Image>(message) || std::holds_alternative<Rigs>(message))
     {
         return roles == QVector<Role>{Role::Picture};
     }
@@ -65,6 +65,10 @@ QVector<Plane> planesOf(const Message& message)
     if (const auto* put = std::get_if<PutFrame>(&message))
     {
         return put->planes;
+    }
+    if (const auto* rigs = std::get_if<Rigs>(&message))
+    {
+        return rigs->planes;
     }
     const auto* image = std::get_if<Image>(&message);
     return image != nullptr ? image->planes : QVector<Plane>();

@@ -62,6 +62,7 @@ CROP = {"x": 10.5, "y": -3, "width": 320, "height": 240.25}
 LIGHT = {"x": 100, "y": 50.5, "z": 300}
 SCENE = {"canvas": {"width": 640, "height": 480}, "lights": [LIGHT]}
 PICTURE = plane("picture", PIXELS)
+RIG = '{"canvas":{"width":640,"height":480},"name":"D\u00e4mmer","lights":[{"x":1,"y":2,"z":3}]}'
 
 HELLO = {"type": "hello", "minor": 0, "client": "Pencil2D", "client_version": "0.6.6"}
 SET_SCENE = {"type": "set_scene", "revision": 1, "scene": SCENE}
@@ -82,6 +83,14 @@ SAMPLES: dict[Sender, list[Tree]] = {
         {"type": "view", **LOOK, "show": "normals"},
         {"type": "get_palette", "request": 4, "frame": 12},
         {"type": "get_overlaps", "request": 6, "frame": 12},
+        {
+            "type": "get_rigs",
+            "request": 7,
+            "frame": 12,
+            "side": 64,
+            "presets": False,
+            "rigs": [RIG],
+        },
         RENDER
         | {"quality": "low", "keep_finished": True, "project": "/shots/walk.pclx"}
         | {"apart": "ora"},
@@ -135,6 +144,15 @@ SAMPLES: dict[Sender, list[Tree]] = {
                     "hinted": True,
                 }
             ],
+        },
+        {
+            "type": "rigs",
+            "request": 7,
+            "frame": 12,
+            "digest": DIGEST,
+            "names": ["sunset"],
+            "rigs": [RIG],
+            "planes": [PICTURE],
         },
         {
             "type": "progress",

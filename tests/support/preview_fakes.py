@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import defaultdict, deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -205,6 +206,17 @@ class Stage:
     def errors(self, client: bytes) -> list[str]:
         sent = (received.message for received in self.transport.sent[client])
         return [message.code for message in sent if isinstance(message, ErrorMessage)]
+
+    def wait_for(self, client: bytes, kind: type[Message]) -> Received:
+        """The next message of this kind, which is taken out; also one from another thread."""
+        for _ in range(600):
+            self.settle()
+            for received in self.transport.sent[client]:
+                if isinstance(received.message, kind):
+                    self.transport.sent[client].remove(received)
+                    return received
+            time.sleep(0.05)
+        raise AssertionError(f"no {kind.__name__} came")
 
     def next_request(self, client: bytes) -> int:
         self._numbers[client] += 1

@@ -20,13 +20,14 @@ from lampblack.choices import (
     QualityName,
     SolverName,
 )
-from lampblack.cli.app import COMMANDS, DATASET_COMMANDS
+from lampblack.cli.app import COMMANDS, DATASET_COMMANDS, RIG_COMMANDS
 from lampblack.cli.lazy import LazyCommand
 from lampblack.cli.options import OPTIONS, with_settings
 from lampblack.finals.settings import RenderSettings
 from support.command_line import Run
 
 ALL = COMMANDS | {f"dataset {name}": listed for name, listed in DATASET_COMMANDS.items()}
+ALL |= {f"rig {name}": listed for name, listed in RIG_COMMANDS.items()}
 HEAVY = {"OpenEXR", "PIL", "bpy", "numba", "numpy", "rich", "scipy", "torch", "trimesh"}
 
 
@@ -100,6 +101,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         inputs=(f"walk{random.randint(0, 9)}.pclx", "b c"),
         output=f"lit {random.randint(0, 9)}",
         scene=random.choice(texts),
+        rig=random.choice(texts),
         lights=tuple(few()),
         floor=random.uniform(-9, 9),
         quality=random.choice(get_args(QualityName)),

@@ -125,7 +125,8 @@ def test_encode_refuses_what_a_role_does_not_allow() -> None:
 
 
 def test_a_scene_too_large_for_a_header_is_refused_by_its_sender() -> None:
-    many = {f"#{i:06x}": Material(glossy=True) for i in range(4000)}
+    sheen = Material(glossy=True, extra={"note": 80 * "-"})
+    many = {f"#{i:06x}": sheen for i in range(4000)}
     scene = SetScene(
         revision=1,
         scene=default_scene(8, 8).__class__(canvas=default_scene(8, 8).canvas, materials=many),
@@ -145,7 +146,7 @@ def test_a_refusal_names_the_message_it_answers() -> None:
 
 
 def test_limits_hold_before_anything_is_parsed() -> None:
-    huge = memoryview(b"[" * 300_000)
+    huge = memoryview(b"[" * 600_000)
     with pytest.raises(ProtocolError) as refused:
         decode([huge, b"x" * 9], "client", Limits(plane_bytes=8))
     assert refused.value.code == ErrorCode.HEADER_TOO_LARGE

@@ -63,6 +63,19 @@ def on_canvas(scene: Scene, canvas: Canvas) -> Scene:
     return replace(scene, canvas=canvas, lights=lights)
 
 
+def box_on_canvas(
+    box: tuple[float, float, float, float], camera: Affine
+) -> tuple[float, float, float, float]:
+    """The box on the canvas around what ``camera`` shows in ``box``; both x, y, width, height."""
+    a, b, c, d, e, f = camera
+    back = np.linalg.inv(np.array([[a, b], [d, e]]))
+    x, y, width, height = box
+    corners = np.array([(x + i * width, y + j * height) for i in (0, 1) for j in (0, 1)])
+    places = (corners - [c, f]) @ back.T
+    (left, top), (right, bottom) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
+    return left, top, right - left, bottom - top
+
+
 def hint_in_view(hint: DepthHint, camera: Affine) -> DepthHint:
     """``hint`` seen through ``camera``; a mirroring camera also mirrors the sides of a stroke."""
     a, b, c, d, e, f = camera

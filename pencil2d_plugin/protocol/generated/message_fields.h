@@ -50,6 +50,7 @@ struct Patterns
     QRegularExpression capabilities{QStringLiteral(R"(^[a-z0-9_]+$(?!\n))")};
     QRegularExpression digest{QStringLiteral(R"(^[0-9a-f]{40}$(?!\n))")};
     QRegularExpression layers{QStringLiteral(R"(^[^\x00-\x1f\x7f]*$(?!\n))")};
+    QRegularExpression rigs{QStringLiteral(R"(^\{[^\x00]*\}$(?!\n))")};
     QRegularExpression frames{QStringLiteral(
         R"(^[0-9]{1,6}(-[0-9]{1,6}(x[0-9]{1,6})?)?(,[0-9]{1,6}(-[0-9]{1,6}(x[0-9]{1,6})?)?)*$(?!\n))")};
     QRegularExpression output{QStringLiteral(R"(^/[^%\x00-\x1f\x7f]*%0[1-9]d\.(png|exr)$(?!\n))")};
@@ -149,6 +150,15 @@ template <class Fields> void describe(Fields& fields, GetOverlaps& value)
     fields.integer("frame", value.frame, 0, 999999);
 }
 
+template <class Fields> void describe(Fields& fields, GetRigs& value)
+{
+    fields.integer("request", value.request, 1, MaxNumber);
+    fields.integer("frame", value.frame, 0, 999999);
+    fields.integer("side", value.side, 16, 256, Need::Optional);
+    fields.boolean("presets", value.presets, Need::Optional);
+    fields.texts("rigs", value.rigs, 12, 16384, patterns().rigs, Need::Optional);
+}
+
 template <class Fields> void describe(Fields& fields, Render& value)
 {
     fields.integer("request", value.request, 1, MaxNumber);
@@ -236,6 +246,16 @@ template <class Fields> void describe(Fields& fields, Overlaps& value)
     fields.list("overlaps", value.overlaps, 200);
 }
 
+template <class Fields> void describe(Fields& fields, Rigs& value)
+{
+    fields.integer("request", value.request, 1, MaxNumber);
+    fields.integer("frame", value.frame, 0, 999999);
+    text(fields, "digest", value.digest, 0, 40, patterns().digest);
+    fields.texts("names", value.names, 24, 80, patterns().layers);
+    fields.texts("rigs", value.rigs, 24, 16384, patterns().rigs);
+    fields.list("planes", value.planes, 1, Need::Optional);
+}
+
 template <class Fields> void describe(Fields& fields, Progress& value)
 {
     fields.integer("request", value.request, 1, MaxNumber);
@@ -294,13 +314,14 @@ struct MessageType
 };
 
 /// In the order of Message's alternatives.
-constexpr std::array<MessageType, 21> MessageTypes = {
+constexpr std::array<MessageType, 23> MessageTypes = {
     {{"hello", true, false},       {"put_frame", true, false},    {"drop_frame", true, false},
      {"set_scene", true, false},   {"preview", true, false},      {"view", true, false},
-     {"get_palette", true, false}, {"get_overlaps", true, false}, {"render", true, false},
-     {"cancel", true, false},      {"bye", true, true},           {"welcome", false, true},
-     {"need_frame", false, true},  {"image", false, true},        {"palette", false, true},
-     {"overlaps", false, true},    {"progress", false, true},     {"frame_done", false, true},
-     {"done", false, true},        {"status", false, true},       {"error", false, true}}};
+     {"get_palette", true, false}, {"get_overlaps", true, false}, {"get_rigs", true, false},
+     {"render", true, false},      {"cancel", true, false},       {"bye", true, true},
+     {"welcome", false, true},     {"need_frame", false, true},   {"image", false, true},
+     {"palette", false, true},     {"overlaps", false, true},     {"rigs", false, true},
+     {"progress", false, true},    {"frame_done", false, true},   {"done", false, true},
+     {"status", false, true},      {"error", false, true}}};
 
 } // namespace lampblack::protocol

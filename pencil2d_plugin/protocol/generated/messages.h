@@ -176,6 +176,20 @@ struct GetOverlaps
     int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
 };
 
+/// Request rigs with their pictures on a frame's drawing; answered by rigs.
+///
+/// First come the rigs that the worker has, if `presets` is set; they are placed on the figure. Then come
+/// those in `rigs`, placed on the whole canvas: files of the artist, or the scene's own light with another
+/// look.
+struct GetRigs
+{
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
+    int side = 96;       ///< side of a picture, pixels, 16 to 256
+    bool presets = true;
+    QStringList rigs = {};
+};
+
 /// Render frames into files, with the scene of this moment.
 struct Render
 {
@@ -279,6 +293,20 @@ struct Overlaps
     QVector<Overlap> overlaps = {}; ///< 200 at most
 };
 
+/// Rigs, in pixels of the scene's canvas: to use one, copy its fields into the scene.
+///
+/// One plane: `picture` (rgba8_premultiplied), with a square picture for each rig, one below the other. The
+/// pictures are sketches without bounced light, made in a moment.
+struct Rigs
+{
+    quint64 request = 1;    ///< number of the request, chosen by the client; rises
+    int frame = 0;          ///< frame of the animation, in the drawing program's count, 0 to 999999
+    QByteArray digest = {}; ///< digest of the drawing that is shown
+    QStringList names = {}; ///< names of the worker's rigs; empty for others
+    QStringList rigs = {};
+    QVector<Plane> planes = {}; ///< the plane that follows, 1 at most
+};
+
 /// The progress of a job.
 struct Progress
 {
@@ -334,8 +362,8 @@ struct Error
     std::optional<int> frame = {};       ///< the frame it concerns, 0 to 999999
 };
 
-using Message =
-    std::variant<Hello, PutFrame, DropFrame, SetScene, Preview, View, GetPalette, GetOverlaps, Render, Cancel,
-                 Bye, Welcome, NeedFrame, Image, Palette, Overlaps, Progress, FrameDone, Done, Status, Error>;
+using Message = std::variant<Hello, PutFrame, DropFrame, SetScene, Preview, View, GetPalette, GetOverlaps,
+                             GetRigs, Render, Cancel, Bye, Welcome, NeedFrame, Image, Palette, Overlaps, Rigs,
+                             Progress, FrameDone, Done, Status, Error>;
 
 } // namespace lampblack::protocol

@@ -76,4 +76,10 @@ bool operator==(const Scene& a, const Scene& b)
                                          b.floor, b.reliefScale, b.depth, b.quality, b.version, b.extra);
 }
 
+bool operator==(const Rig& a, const Rig& b)
+{
+    return std::tie(a.canvas, a.name, a.lights, a.ambient, a.version, a.extra) ==
+           std::tie(b.canvas, b.name, b.lights, b.ambient, b.version, b.extra);
+}
+
 } // namespace lampblack

@@ -199,6 +199,20 @@ struct Scene
     QJsonObject extra = {};
 };
 
+/// The light of a scene without what it falls on, to be used again in other shots.
+///
+/// Places are in pixels of the rig's own `canvas`. They are moved to another canvas, or to the box around a
+/// figure, with the middle on the middle and the longer side as long as the longer side. See `rigs/`.
+struct Rig
+{
+    Canvas canvas = {};
+    QString name = {};              ///< for people
+    QVector<AreaLight> lights = {}; ///< 8 at most
+    Ambient ambient = {};
+    int version = 1; ///< 1 to 1
+    QJsonObject extra = {};
+};
+
 bool operator==(const Canvas& a, const Canvas& b);
 bool operator==(const LightKey& a, const LightKey& b);
 bool operator==(const AreaLight& a, const AreaLight& b);
@@ -211,5 +225,6 @@ bool operator==(const DepthHint& a, const DepthHint& b);
 bool operator==(const LayerBody& a, const LayerBody& b);
 bool operator==(const Depth& a, const Depth& b);
 bool operator==(const Scene& a, const Scene& b);
+bool operator==(const Rig& a, const Rig& b);
 
 } // namespace lampblack

@@ -37,6 +37,14 @@ COMMANDS: Commands = {
 DATASET_COMMANDS: Commands = {
     "build": ("lampblack_research.cli.dataset:build", "Draw models from many sides."),
 }
+RIG_COMMANDS: Commands = {
+    "list": ("lampblack.cli.rig:list_rigs", "List the rigs that come with Lampblack."),
+    "show": (
+        "lampblack.cli.rig:show",
+        "Print a rig as JSON, to change it and save it as your own.",
+    ),
+    "save": ("lampblack.cli.rig:save", "Write the lights of a scene as a rig."),
+}
 
 app = typer.Typer(
     cls=group_of(COMMANDS),
@@ -53,6 +61,15 @@ app.add_typer(
         help="Make data sets of drawings with exact truth.",
     ),
     name="dataset",
+)
+app.add_typer(
+    typer.Typer(
+        cls=group_of(RIG_COMMANDS),
+        callback=lambda: None,
+        no_args_is_help=True,
+        help="Use lights again in other shots.",
+    ),
+    name="rig",
 )
 
 

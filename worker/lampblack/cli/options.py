@@ -39,6 +39,12 @@ OPTIONS: dict[str, Any] = {
         metavar="FILE",
         help="Scene file. Default for walk.pclx: walk.pclx.lampblack.json; else one light.",
     ),
+    "rig": typer.Option(
+        "--rig",
+        metavar="NAME|FILE",
+        help="Rig: key, rim, three-point, sunset, moon, under-light, lantern, or a file. "
+        "Replaces the scene's lights and ambient light.",
+    ),
     "lights": typer.Option(
         "--light",
         metavar="X,Y,Z",

@@ -13,6 +13,7 @@ from ..normals.temporal.neighbours import REACH
 from ..project import is_project, read_project
 from ..project.shot import ProjectShot
 from ..project.stack import roles_of
+from ..rigs import find_rig
 from ..scene import Scene
 from ..shot import Shot, ShotFrame
 from .pictures import PictureShot
@@ -93,6 +94,7 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
     hints = settings.depth_hints
     overrides = SceneOverrides(
         scene,
+        None if settings.rig is None else find_rig(settings.rig),
         settings.lights,
         settings.floor,
         settings.quality,

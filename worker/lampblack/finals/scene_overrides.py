@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..choices import BodyChoice, QualityName
 from ..errors import SceneError
+from ..rigs import with_rig
 from ..scene import (
     MAX_LIGHTS,
     AreaLight,
@@ -15,6 +16,7 @@ from ..scene import (
     Depth,
     Floor,
     LayerBody,
+    Rig,
     Scene,
     decode_depth,
     decode_scene,
@@ -29,6 +31,7 @@ class SceneOverrides:
 
     Attributes:
         file: the scene of the scene file, if there is one.
+        rig: in place of the scene's lights and ambient light.
         lights: ``X,Y,Z`` each, in place of the scene's lights.
         floor: canvas line of a floor. quality: a preset.
         depth: what the artist says of the depth.
@@ -36,6 +39,7 @@ class SceneOverrides:
     """
 
     file: Scene | None = None
+    rig: Rig | None = None
     lights: Sequence[str] = ()
     floor: float | None = None
     quality: QualityName | None = None
@@ -50,6 +54,8 @@ class SceneOverrides:
     def scene(self, canvas: Canvas) -> Scene:
         """The scene for drawings on ``canvas``."""
         scene = self.file or default_scene(canvas.width, canvas.height)
+        if self.rig is not None:
+            scene = with_rig(scene, self.rig)
         if self.lights:
             scene = replace(scene, lights=lights_at(self.lights, canvas))
         if self.floor is not None:

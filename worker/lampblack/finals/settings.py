@@ -16,6 +16,7 @@ from ..choices import (
     QualityName,
     SolverName,
 )
+from ..rigs import preset_name
 
 
 class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
@@ -25,6 +26,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         inputs: pictures, folders and patterns, or one project.
         output: a folder, or a pattern of file names.
         scene: scene file; None is the file next to a project, or the default scene.
+        rig: name or file of a rig, in place of the scene's lights and ambient light.
         lights: ``X,Y,Z`` each, in canvas pixels, in place of the scene's lights.
         floor: canvas line of a floor, in place of the scene's floor.
         quality: preset, in place of the scene's.
@@ -46,6 +48,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     inputs: tuple[str, ...]
     output: str
     scene: str | None = None
+    rig: str | None = None
     lights: tuple[str, ...] = ()
     floor: float | None = None
     quality: QualityName | None = None
@@ -72,6 +75,8 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         found = {
             name: str(Path(path).absolute()) for name, path in named.items() if path is not None
         }
+        if self.rig is not None and preset_name(self.rig) is None:
+            found["rig"] = str(Path(self.rig).absolute())
         inputs = tuple(str(Path(path).absolute()) for path in self.inputs)
         return msgspec.structs.replace(self, inputs=inputs, **found)
 

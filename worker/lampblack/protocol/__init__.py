@@ -21,6 +21,7 @@ from .limits import LIMITS, Limits
 from .messages import FromClient, FromWorker, Sender
 from .planes import Pixels, Plane, Role
 from .preview import Image, Preview, SetScene, View
+from .rigs import GetRigs, Rigs
 from .session import Bye, ErrorMessage, Hello, Status, Welcome, answer_to, error_message
 from .version import MAJOR, MINOR
 
@@ -41,6 +42,7 @@ __all__ = [
     "FromWorker",
     "GetOverlaps",
     "GetPalette",
+    "GetRigs",
     "Hello",
     "Image",
     "Limits",
@@ -58,6 +60,7 @@ __all__ = [
     "PutFrame",
     "Received",
     "Render",
+    "Rigs",
     "Role",
     "Sender",
     "SetScene",

@@ -21,6 +21,7 @@ from .limits import MAX_NUMBER, Limits
 from .messages import BY_SENDER, MESSAGES, Sender
 from .planes import FORMAT_OF, Pixels, Plane, Role
 from .preview import Image
+from .rigs import Rigs
 from .version import MAGIC, PREFIX
 
 _ROLES: dict[type[Message], tuple[tuple[Role, ...], ...]] = {
@@ -32,6 +33,7 @@ _ROLES: dict[type[Message], tuple[tuple[Role, ...], ...]] = {
         ("pixels", "mask", "ink"),
     ),
     Image: (("picture",),),
+    Rigs: (("picture",),),
 }
 _BRACKET_OR_STRING = re.compile(rb'[\[{]|[\]}]|"(?:[^"\\]|\\.)*+"?', re.DOTALL)
 

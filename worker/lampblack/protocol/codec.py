@@ -16,6 +16,7 @@ from .limits import LIMITS, MAX_NUMBER, Limits
 from .messages import MESSAGES, Sender
 from .planes import Pixels, Plane, Role, plane_of, view_pixels
 from .preview import Image
+from .rigs import Rigs
 
 
 class Received(NamedTuple):
@@ -119,7 +120,7 @@ def encode(
     named = [*(planes or {}).items(), *(("layer", pixels) for pixels in layers)]
     arrays = [(role, np.ascontiguousarray(pixels)) for role, pixels in named]
     specs = tuple(plane_of(role, pixels) for role, pixels in arrays)
-    if isinstance(message, PutFrame | Image):
+    if isinstance(message, PutFrame | Image | Rigs):
         message = msgspec.structs.replace(message, planes=specs)
     elif specs:
         raise ValueError(f"{type(message).__name__} carries no planes")

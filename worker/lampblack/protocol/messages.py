@@ -18,6 +18,7 @@ from .frames import (
 )
 from .job import Cancel, Done, FrameDone, Progress, Render
 from .preview import Image, Preview, SetScene, View
+from .rigs import GetRigs, Rigs
 from .session import Bye, ErrorMessage, Hello, Status, Welcome
 
 Sender = Literal["client", "worker"]
@@ -31,6 +32,7 @@ FromClient = (
     | View
     | GetPalette
     | GetOverlaps
+    | GetRigs
     | Render
     | Cancel
     | Bye
@@ -41,6 +43,7 @@ FromWorker = (
     | Image
     | Palette
     | Overlaps
+    | Rigs
     | Progress
     | FrameDone
     | Done

@@ -9,7 +9,9 @@ from .depth import MAX_HINT_POINTS, MAX_HINTS, Depth, DepthHint, DepthPoint, Lay
 from .document import (
     MAX_JSON_BYTES,
     decode_depth,
+    decode_rig,
     decode_scene,
+    encode_rig,
     encode_scene,
     normalize_schema,
     scene_schema,
@@ -17,6 +19,7 @@ from .document import (
 from .floor import Floor, FloorKey
 from .lights import Ambient, AreaLight, LightKey, shining
 from .materials import Material
+from .rig import Rig
 from .scene import MAX_LIGHTS, VERSION, Canvas, Scene, default_light, default_scene
 from .values import MAX_KEYS, Colour
 
@@ -39,11 +42,14 @@ __all__ = [
     "LayerBody",
     "LightKey",
     "Material",
+    "Rig",
     "Scene",
     "decode_depth",
+    "decode_rig",
     "decode_scene",
     "default_light",
     "default_scene",
+    "encode_rig",
     "encode_scene",
     "normalize_schema",
     "scene_schema",

@@ -12,6 +12,7 @@ import msgspec
 
 from ..errors import SceneError
 from .depth import Depth
+from .rig import Rig
 from .scene import VERSION, Scene
 
 MAX_JSON_BYTES = 1 << 20
@@ -40,6 +41,32 @@ def decode_scene(data: bytes) -> Scene:
     except (msgspec.ValidationError, RecursionError) as error:
         raise SceneError(
             "The scene has a field that cannot be used.", "Correct it and try again.", str(error)
+        ) from error
+
+
+def encode_rig(rig: Rig) -> bytes:
+    """The rig as indented JSON, unknown fields included."""
+    return msgspec.json.format(msgspec.json.encode(_to_builtins(rig)), indent=2) + b"\n"
+
+
+def decode_rig(data: bytes) -> Rig:
+    """Read a rig from JSON.
+
+    Raises:
+        SceneError: not JSON, too large, of another version, or a value out of range.
+    """
+    tree = _json_object(data, "rig")
+    version = tree.get("version", VERSION)
+    if version != VERSION:
+        raise SceneError(
+            f"The rig has version {version!r}; this Lampblack reads version {VERSION}.",
+            "Update Lampblack, or save the rig again: lampblack rig save.",
+        )
+    try:
+        return _from_builtins(tree, Rig)
+    except (msgspec.ValidationError, RecursionError) as error:
+        raise SceneError(
+            "The rig has a field that cannot be used.", "Correct it and try again.", str(error)
         ) from error
 
 

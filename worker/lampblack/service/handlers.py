@@ -16,6 +16,7 @@ from ..protocol import (
     ErrorCode,
     GetOverlaps,
     GetPalette,
+    GetRigs,
     Hello,
     Preview,
     PutFrame,
@@ -62,7 +63,7 @@ def _hello(service: Service, identity: bytes, message: Hello) -> None:
             minor=MINOR,
             session=session.name,
             worker_version=__version__,
-            capabilities=("layers", "apart"),
+            capabilities=("layers", "apart", "rigs"),
         ),
     )
     service.hurry_status()
@@ -131,6 +132,8 @@ def _ask(service: Service, session: Session, message: Question, received: Receiv
             session,
             error_message(ErrorCode.UNKNOWN_FRAME, request=message.request, frame=message.frame),
         )
+    elif isinstance(message, GetRigs) and session.scene is None:
+        service.send(session, error_message(ErrorCode.NO_SCENE, request=message.request))
     else:
         session.questions = [*session.questions[-255:], message]
         service.planner.changed()
@@ -176,6 +179,7 @@ _HANDLERS: dict[type[Message], Callable[[Service, Session, Any, Received], None]
     View: _look,
     GetPalette: _ask,
     GetOverlaps: _ask,
+    GetRigs: _ask,
     Render: _render,
     Cancel: _cancel,
     Bye: _bye,

@@ -18,6 +18,7 @@ from ..protocol import (
     ErrorCode,
     GetOverlaps,
     GetPalette,
+    GetRigs,
     NeedFrame,
     Overlaps,
     Swatch,
@@ -27,6 +28,7 @@ from ..protocol import Palette as PaletteMessage
 from ..protocol.fields import Message
 from .faults import fault_message
 from .overlaps import overlaps_on_canvas
+from .rig_sketches import RigQuestion
 from .session import Session
 
 MAX_ASKED = 2
@@ -42,12 +44,14 @@ class Planner:
     Args:
         sessions: all sessions by identity; shared with the owner.
         send: queues a message for a session.
+        sketch: answers a request for rigs, some time later.
     """
 
     state: PreviewState
     painter: Painter
     sessions: dict[bytes, Session]
     send: Callable[[Session, Message], None]
+    sketch: Callable[[RigQuestion], None]
     _palettes: BoundedStore[str, Palette] = field(default_factory=lambda: BoundedStore(MIB))
     _warnings: BoundedStore[str, list[str]] = field(default_factory=lambda: BoundedStore(MIB))
     _dirty: bool = False
@@ -167,6 +171,10 @@ class Planner:
                 about = question.request, question.frame
                 self.send(session, fault_message(failure, request=about[0], frame=about[1]))
                 continue
+            if isinstance(question, GetRigs):
+                if not self._sketch(session, question, shape):
+                    session.questions.append(question)
+                continue
             answer = (
                 self._palette(question, shape)
                 if isinstance(question, GetPalette)
@@ -176,6 +184,17 @@ class Planner:
                 session.questions.append(question)
             else:
                 self.send(session, answer)
+
+    def _sketch(self, session: Session, question: GetRigs, shape: DrawingShape) -> bool:
+        """Have rigs sketched; False while the drawing is not prepared in any detail."""
+        drawing = self.state.drawing(shape)
+        if drawing is None or session.scene is None:
+            return False
+        camera = session.frames[question.frame].camera
+        self.sketch(
+            RigQuestion(session.name, question, shape.digest, drawing, session.scene, camera)
+        )
+        return True
 
     def _palette(self, question: GetPalette, shape: DrawingShape) -> Message | None:
         """The answer; None while the drawing is not decomposed."""

@@ -17,6 +17,7 @@ from .jobs import Jobs
 from .memory import resident_bytes
 from .outbox import Frames
 from .planner import Planner
+from .rig_sketches import RigSketches
 from .session import Session
 
 STATUS_SECONDS = 1.0
@@ -54,7 +55,10 @@ class Service:
     ) -> None:
         self.sessions: dict[bytes, Session] = {}
         self.preview = LivePreview(renderer, pipeline, self, clock)
-        self.planner = Planner(self.preview.state, self.preview.painter, self.sessions, self.send)
+        self.sketches = RigSketches(self.deliver)
+        self.planner = Planner(
+            self.preview.state, self.preview.painter, self.sessions, self.send, self.sketches.ask
+        )
         self.jobs = Jobs(self.preview.state, job_pipeline, self.request_planes, self.deliver)
         self._transport = transport
         self._clock = clock
@@ -71,6 +75,7 @@ class Service:
     def close(self) -> None:
         """End all threads and renderers."""
         self.jobs.close()
+        self.sketches.close()
         self.preview.close()
         if self._job_thread.is_alive():
             self._job_thread.join(2)

@@ -10,12 +10,12 @@ from ..camera import Affine, hint_in_view
 from ..hints import hint_frames
 from ..preview import Viewport, ViewRequest
 from ..preview.shape import DrawingShape, HintSource
-from ..protocol import ErrorCode, GetOverlaps, GetPalette, error_message
+from ..protocol import ErrorCode, GetOverlaps, GetPalette, GetRigs, error_message
 from ..protocol.fields import Message
 from ..scene import Depth, Scene
 from ..timeline import is_keyed, scene_at
 
-Question = GetPalette | GetOverlaps
+Question = GetPalette | GetOverlaps | GetRigs
 
 
 @dataclass(frozen=True)

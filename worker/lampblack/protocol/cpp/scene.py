@@ -6,7 +6,7 @@ from typing import get_args
 
 from ... import choices as words
 from ... import scene, timeline
-from ...scene import Colour, Scene
+from ...scene import Colour, Rig, Scene
 from . import declarations as cpp
 from .fields import fields_of, structs_in, unwrapped
 from .members import Form, Translator
@@ -17,7 +17,7 @@ NAMESPACE = "lampblack"
 CONSTANTS = ("MAX_LIGHTS", "MAX_KEYS", "MAX_JSON_BYTES")
 
 COLOUR = Form(Colour, "QColor", lambda colour: f"QColor(0x{colour[1:]})")
-STRUCTS = structs_in([Scene])
+STRUCTS = structs_in([Scene, Rig])
 ENUMS = {
     words: name
     for words, name in cpp.enums_in([words]).items()
