@@ -1,31 +1,53 @@
-"""PNG files read and written, always as sRGB with straight alpha."""
+"""Pictures read, and PNG files written, always as sRGB with straight alpha."""
 
 from __future__ import annotations
 
 import struct
+import warnings
 from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, ImageOps
+from PIL.BmpImagePlugin import BmpImageFile
+from PIL.GifImagePlugin import GifImageFile
+from PIL.ImageFile import ImageFile
+from PIL.JpegImagePlugin import JpegImageFile
 from PIL.PngImagePlugin import PngImageFile
+from PIL.TgaImagePlugin import TgaImageFile
+from PIL.TiffImagePlugin import TiffImageFile
+from PIL.WebPImagePlugin import WebPImageFile
 
 from ..atomic import atomic_file
-from ..errors import DrawingError
+from ..errors import DrawingError, LampblackWarning
+from .profile import to_srgb
 
 MAX_SIDE = 16384
 MAX_PIXELS = 40_000_000
+PICTURE_SUFFIXES = frozenset(
+    (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".tga", ".bmp", ".gif")
+)
 
-_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_PNG = b"\x89PNG\r\n\x1a\n"
+_FORMATS: tuple[tuple[bytes, type[ImageFile]], ...] = (
+    (_PNG, PngImageFile),
+    (b"\xff\xd8\xff", JpegImageFile),
+    (b"RIFF", WebPImageFile),
+    (b"II*\0", TiffImageFile),
+    (b"MM\0*", TiffImageFile),
+    (b"GIF8", GifImageFile),
+    (b"BM", BmpImageFile),
+)
+"""Formats by the first bytes of a file, whatever its name says."""
 _PLAIN_PNG = "Export it again as a PNG from your drawing program."
 
 
 def load_picture(path: str | Path) -> NDArray[np.uint8]:
-    """Read a PNG file; see ``read_picture``.
+    """Read a picture file; see ``read_picture``.
 
     Raises:
-        DrawingError: missing, a folder, not a PNG, damaged, or too large.
+        DrawingError: missing, a folder, not a picture, damaged, or too large.
     """
     path = Path(path)
     try:
@@ -36,7 +58,7 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
             f"There is no picture at {path}.", "Check the name and the folder."
         ) from error
     except IsADirectoryError as error:
-        raise DrawingError(f"{path} is a folder, not a picture.", "Name a PNG file.") from error
+        raise DrawingError(f"{path} is a folder, not a picture.", "Name a picture file.") from error
     except PermissionError as error:
         raise DrawingError(
             f"There is no permission to read {path}.", "Check the file's permissions.", str(error)
@@ -44,23 +66,41 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
 
 
 def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
-    """Read a PNG of any colour type and depth; ``name`` is for the errors.
+    """Read a PNG, JPEG, WebP, TIFF, TGA, BMP or GIF of any colour type and depth, recognised by
+    its content; ``name`` is for the errors and warnings.
 
-    16-bit samples become 8-bit ones. The size is checked from the header, before any pixel is
-    decoded. Every chunk's checksum must hold, so that a truncated file is refused.
+    Samples become 8-bit sRGB: an ICC profile, or the gamma of a PNG, is applied; see
+    ``to_srgb``. A photograph is turned upright as its EXIF orientation says. The size is
+    checked before any pixel is decoded. Every checksum of a PNG must hold, so that a truncated
+    file is refused.
 
     Returns:
         (H, W, 4) uint8, sRGB, straight alpha, row 0 at the top.
 
     Raises:
-        DrawingError: not a PNG, damaged, or too large.
+        DrawingError: not a picture, damaged, or too large.
+
+    Warns:
+        LampblackWarning: the file has more pictures than one; only the first is read.
     """
     try:
-        depth = _check_header(file, name)
-        _open_png(file).verify()
-        return _decode(_open_png(file), depth)
+        if file.read(len(_PNG)) == _PNG:
+            depth = _check_png_header(file, name)
+            _open_as(PngImageFile, file).verify()
+            image = _open_as(PngImageFile, file)
+        else:
+            depth, image = 8, _open_other(file, name)
+            _check_size(*image.size, name)
+        frames = getattr(image, "n_frames", 1)
+        if frames > 1:
+            warnings.warn(
+                f"{name} holds {frames} pictures; only the first is used.",
+                LampblackWarning,
+                stacklevel=2,
+            )
+        return _decode(image, depth, name)
     except (OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
-        raise DrawingError(f"The PNG {name} is damaged.", _PLAIN_PNG, str(error)) from error
+        raise DrawingError(f"The picture {name} is damaged.", _PLAIN_PNG, str(error)) from error
     except MemoryError as error:
         raise DrawingError(
             f"There is not enough memory to read {name}.", "Close other programs."
@@ -79,29 +119,42 @@ def save_picture(path: str | Path, picture: NDArray[np.uint8]) -> None:
         Image.fromarray(picture).save(file, "PNG", compress_level=4)
 
 
-def _check_header(file: BinaryIO, name: str) -> int:
-    """Check the signature and the size. Returns the bits per sample."""
-    header = file.read(29)
-    if header[:8] != _SIGNATURE:
-        raise DrawingError(f"{name} is not a PNG picture.", _PLAIN_PNG)
-    if len(header) < 29 or header[12:16] != b"IHDR":
-        raise DrawingError(f"The PNG {name} is damaged.", _PLAIN_PNG)
-    width, height, depth = struct.unpack(">IIB", header[16:25])
+def _check_png_header(file: BinaryIO, name: str) -> int:
+    """Check the size in the header that follows the signature. Returns the bits per sample."""
+    header = file.read(21)
+    if len(header) < 21 or header[4:8] != b"IHDR":
+        raise DrawingError(f"The picture {name} is damaged.", _PLAIN_PNG)
+    width, height, depth = struct.unpack(">IIB", header[8:17])
+    _check_size(width, height, name)
+    return int(depth)
+
+
+def _check_size(width: int, height: int, name: str) -> None:
     if width > MAX_SIDE or height > MAX_SIDE or width * height > MAX_PIXELS:
         raise DrawingError(
             f"The picture {name} is {width} x {height} pixels, which is too large.",
             f"At most {MAX_SIDE} a side and {MAX_PIXELS // 1_000_000} megapixels are read.",
         )
-    return int(depth)
 
 
-def _open_png(file: BinaryIO) -> PngImageFile:
-    # Not Image.open: the size is checked already, and its own guard only warns.
+def _open_other(file: BinaryIO, name: str) -> ImageFile:
     file.seek(0)
-    return PngImageFile(file)
+    start = file.read(16)
+    for signature, kind in _FORMATS:
+        if start.startswith(signature):
+            return _open_as(kind, file)
+    if Path(name).suffix.lower() == ".tga":  # the one format without a signature
+        return _open_as(TgaImageFile, file)
+    raise DrawingError(f"{name} is not a picture that can be read.", _PLAIN_PNG)
 
 
-def _decode(image: PngImageFile, depth: int) -> NDArray[np.uint8]:
+def _open_as(kind: type[ImageFile], file: BinaryIO) -> ImageFile:
+    # Not Image.open: the size is checked here, and its own guard only warns.
+    file.seek(0)
+    return kind(file)
+
+
+def _decode(image: ImageFile, depth: int, name: str) -> NDArray[np.uint8]:
     """Pillow's picture as RGBA. Corrects its handling of transparent colours (``tRNS``) of
     unusual depths, and of 16-bit grey, which ``convert`` would clip."""
     image.load()
@@ -111,9 +164,13 @@ def _decode(image: PngImageFile, depth: int) -> NDArray[np.uint8]:
         opaque = np.ones(grey.shape, bool) if key is None else grey != key
         level = ((grey + 128) // 257).astype(np.uint8)
         alpha = np.where(opaque, 255, 0).astype(np.uint8)
-        return np.dstack([level, level, level, alpha])
-    if key is not None and image.mode == "RGB" and depth == 16:
-        image.info["transparency"] = tuple(sample >> 8 for sample in key)
-    if key is not None and image.mode == "L" and depth < 8:
-        image.info["transparency"] = key * (255 // ((1 << depth) - 1))
-    return np.array(image.convert("RGBA"))
+        plain = Image.fromarray(np.dstack([level, level, level, alpha]))
+        plain.info = {k: v for k, v in image.info.items() if k != "transparency"}
+    else:
+        if key is not None and image.mode == "RGB" and depth == 16:
+            image.info["transparency"] = tuple(sample >> 8 for sample in key)
+        if key is not None and image.mode == "L" and depth < 8:
+            image.info["transparency"] = key * (255 // ((1 << depth) - 1))
+        plain = image
+    upright = ImageOps.exif_transpose(plain) if image.getexif().get(0x0112, 1) != 1 else plain
+    return np.array(to_srgb(upright, name))
