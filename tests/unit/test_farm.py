@@ -93,7 +93,7 @@ def test_a_worker_notices_drawings_that_change_between_two_runs(
     (tmp_path / "a.0001.png").write_text("no picture")
     ((_, became, words),) = light_group(settings_json, "third", ["a.0001.png"])
     assert became == "failed"
-    assert "not a PNG" in words[0]
+    assert "not a picture" in words[0]
 
 
 def test_a_cluster_that_is_not_there_is_told(

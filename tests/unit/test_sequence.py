@@ -48,6 +48,50 @@ def test_gaps_and_shared_numbers_are_fine(tmp_path: Path) -> None:
     assert numbers(find_frames([tmp_path])) == [9, 9, 200]
 
 
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [
+        ("walk.-0001.png", -1),
+        ("walk_-12.png", -12),
+        ("-3.png", -3),
+        ("walk-0001.png", 1),
+        ("walk1-2.png", 2),
+        ("walk--2.png", 2),
+        ("1-walk.png", 1),
+        ("-1_walk.png", -1),
+        ("12. run2.png", 2),
+        ("3d.png", None),
+        ("WALK.0007.JPG", 7),
+        ("walk.0008.tiff", 8),
+        ("walk.1234567890.png", None),
+    ],
+)
+def test_the_number_in_a_name(tmp_path: Path, name: str, number: int | None) -> None:
+    (tmp_path / name).touch()
+    assert numbers(find_frames([tmp_path])) == [number]
+
+
+def test_frames_before_the_first_come_first(tmp_path: Path) -> None:
+    for number in (2, -3, 0, -1):
+        (tmp_path / f"a.{number:05d}.png").touch()
+    for pattern in ("", "a.%05d.png", "a.#####.png", "a.%d.png", "a..png"):
+        assert numbers(find_frames([tmp_path / pattern])) == [-3, -1, 0, 2]
+
+
+def test_names_are_in_the_order_of_their_numbers(tmp_path: Path) -> None:
+    """Numbers first, wherever they are."""
+    for name in ("2-walk.png", "10-walk.png", "a10b.png", "a2b.png", "1-walk.png"):
+        (tmp_path / name).touch()
+    found = [frame.path.name for frame in find_frames([tmp_path])]
+    assert found == ["1-walk.png", "2-walk.png", "10-walk.png", "a2b.png", "a10b.png"]
+
+
+def test_lost_links_are_told(folder: Path) -> None:
+    (folder / "a.0011.png").symlink_to(folder / "gone.png")
+    with pytest.warns(LampblackWarning, match=r"a\.0011\.png"):
+        assert numbers(find_frames([folder])) == [1, 2, 3, 10]
+
+
 @pytest.mark.parametrize("name", ["missing", "missing.png", "none.%04d.png", "no/x.%d.png"])
 def test_missing(folder: Path, name: str) -> None:
     with pytest.raises(DrawingError):
@@ -55,7 +99,7 @@ def test_missing(folder: Path, name: str) -> None:
 
 
 def test_empty(tmp_path: Path) -> None:
-    with pytest.raises(DrawingError, match="holds no PNG"):
+    with pytest.raises(DrawingError, match="holds no pictures"):
         find_frames([tmp_path])
     with pytest.raises(DrawingError, match="No drawing"):
         find_frames([])
@@ -70,6 +114,9 @@ def test_empty(tmp_path: Path) -> None:
         ("5-5", [5]),
         ("1-4,2-3", [1, 2, 3, 4]),
         ("0001-0003", [1, 2, 3]),
+        ("-3", [-3]),
+        ("-3-1x2", [-3, -1, 1]),
+        ("-3--1", [-3, -2, -1]),
     ],
 )
 def test_frame_lists(text: str, expected: list[int]) -> None:
@@ -78,7 +125,21 @@ def test_frame_lists(text: str, expected: list[int]) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["", ",", "a", "1-", "-3", "1x2", "5-1", "1-9x0", "1--3", "1.5", "1-999999999", "9" * 5000],
+    [
+        "",
+        ",",
+        "a",
+        "1-",
+        "-",
+        "1x2",
+        "5-1",
+        "1-9x0",
+        "1--3",
+        "--3",
+        "1.5",
+        "1-999999999",
+        "9" * 5000,
+    ],
 )
 def test_bad_frame_lists(text: str) -> None:
     with pytest.raises(DrawingError):

@@ -15,9 +15,11 @@ from ..errors import LampblackError
 from ..finals.settings import RenderSettings
 
 OPTIONS: dict[str, Any] = {
-    "input": typer.Argument(metavar="INPUT", help="A PNG, folder, walk.%04d.png, .pclx or .ora."),
+    "input": typer.Argument(
+        metavar="INPUT", help="A picture, folder, walk.%04d.png, .pclx or .ora."
+    ),
     "inputs": typer.Argument(
-        metavar="INPUT", help="PNG, folder, walk.%04d.png, or one .pclx or .ora project."
+        metavar="INPUT", help="Picture, folder, walk.%04d.png, or one .pclx or .ora project."
     ),
     "output": typer.Option(
         "-o",

@@ -10,12 +10,15 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from ..errors import DrawingError, LampblackWarning
+from .load import PICTURE_SUFFIXES
 
 MAX_FRAMES = 100_000
 
-_NUMBER = re.compile(r"(\d+)(?=\.png$)", re.IGNORECASE)
-_PATTERN = re.compile(r"%0?(\d*)d")
-_RANGE = re.compile(r"(\d{1,9})(?:-(\d{1,9})(?:x(\d{1,9}))?)?")
+_AT_END = re.compile(r"(?:(?<![^._ ])-)?(?<!\d)\d{1,9}$")
+"""After a letter or a digit, "-" is no sign."""
+_AT_START = re.compile(r"-?\d{1,9}(?=[-._ ])")
+_PATTERN = re.compile(r"%0?(\d*)d|#+|(?<=\.)(?=\.)")
+_RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?:x(\d{1,9}))?)?")
 
 
 class HasNumber(Protocol):
@@ -40,13 +43,17 @@ class Frame:
 def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
     """The frames that ``inputs`` name.
 
-    An input is a PNG file, a folder of them, or a printf pattern (``walk.%04d.png``). The
-    frame number is the run of digits before ``.png`` (``walk.0001.png``, ``walk0001.png``).
-    The frames of a folder or a pattern are sorted by number; gaps are allowed. Inputs keep
-    their order. A file that is named twice counts once.
+    An input is a picture file, a folder of them, or a pattern: ``walk.%04d.png``,
+    ``walk.####.png`` or ``walk..png``. The frame number is at the end of the name
+    (``walk.0001.png``, ``walk0001.png``, ``walk.-0001.png``), or else at its start
+    (``1-walk.png``). The frames of a folder or a pattern are sorted by number, those without one
+    come last; gaps are allowed. Inputs keep their order. A file that is named twice counts once.
 
     Raises:
-        DrawingError: nothing is named, a file is missing, or a folder has no PNG files.
+        DrawingError: nothing is named, a file is missing, or a folder has no pictures.
+
+    Warns:
+        LampblackWarning: a folder holds links to pictures that do not exist.
     """
     if not inputs:
         raise DrawingError("No drawing was named.", "Name a PNG file or a folder of them.")
@@ -60,7 +67,8 @@ def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
 
 
 def parse_frames(text: str) -> list[int]:
-    """Frame numbers of a list such as ``1-20x2,25``: ranges, each with an optional step.
+    """Frame numbers of a list such as ``1-20x2,25``: ranges, each with an optional step. Numbers
+    may be negative: ``-5--1``.
 
     Ascending, each number once.
 
@@ -129,14 +137,14 @@ def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[
 def _frames_of(path: Path) -> list[Frame]:
     if path.is_dir():
         frames = [Frame(_number(file), file) for file in _pictures_in(path)]
-        return _in_order(frames, f"The folder {path} holds no PNG files.")
+        return _in_order(frames, f"The folder {path} holds no pictures.")
     pattern = _PATTERN.search(path.name)
     if pattern is not None and not path.exists():
-        before, after = path.name[: pattern.start()], path.name[pattern.end() :]
-        width = int(pattern[1] or 1)
-        name = re.compile(re.escape(before) + rf"(\d{{{width},9}})" + re.escape(after))
         if not path.parent.is_dir():
             raise DrawingError(f"There is no folder {path.parent}.", "Check its name.")
+        before, after = path.name[: pattern.start()], path.name[pattern.end() :]
+        number = _padded(pattern)
+        name = re.compile(re.escape(before) + f"({number})" + re.escape(after))
         matches = [
             Frame(int(match[1]), file)
             for file in _pictures_in(path.parent)
@@ -148,27 +156,48 @@ def _frames_of(path: Path) -> list[Frame]:
     return [Frame(_number(path), path)]
 
 
+def _padded(pattern: re.Match[str]) -> str:
+    """What a number looks like there. A sign may count as one of the digits, or not."""
+    width = len(pattern[0]) if pattern[0].startswith("#") else int(pattern[1] or 1)
+    return rf"\d{{{width},9}}|-\d{{{max(1, width - 1)},9}}"
+
+
 def _pictures_in(folder: Path) -> list[Path]:
     try:
-        return [
+        named = [
             file
             for file in folder.iterdir()
-            if file.suffix.lower() == ".png" and not file.name.startswith(".") and file.is_file()
+            if file.suffix.lower() in PICTURE_SUFFIXES and not file.name.startswith(".")
         ]
+        lost = sorted(file.name for file in named if file.is_symlink() and not file.exists())
     except OSError as error:
         raise DrawingError(
             f"The folder {folder} could not be read.", "Check its permissions.", str(error)
         ) from error
+    if lost:
+        more = ", ..." if len(lost) > 8 else ""
+        warnings.warn(
+            f"{len(lost)} links in {folder} lead to no picture: {', '.join(lost[:8])}{more}.",
+            LampblackWarning,
+            stacklevel=2,
+        )
+    return [file for file in named if file.is_file()]
 
 
 def _in_order(frames: Sequence[Frame], nothing: str) -> list[Frame]:
     if not frames:
-        raise DrawingError(nothing, "Check the name, and that the drawings are PNG files.")
+        raise DrawingError(nothing, "Check the name, and that the drawings are picture files.")
     return sorted(
-        frames, key=lambda f: (f.number is None, f.number if f.number is not None else 0, f.path)
+        frames, key=lambda f: (f.number is None, f.number or 0, _natural(f.path.name), f.path)
     )
 
 
+def _natural(name: str) -> list[tuple[int, str]]:
+    """A key by which ``a2b`` comes before ``a10b``."""
+    parts = re.split(r"(\d{1,9})", name)
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in parts if part]
+
+
 def _number(path: Path) -> int | None:
-    match = _NUMBER.search(path.name)
-    return int(match[1]) if match and len(match[1]) <= 9 else None
+    match = _AT_END.search(path.stem) or _AT_START.match(path.stem)
+    return int(match[0]) if match else None

@@ -46,7 +46,7 @@ def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     )
     drawing = neighbour_loader.drawing(frame)
     canvas = resolved.shot.canvas or Canvas(*drawing.size)
-    scene = scene_at(resolved.overrides.scene(canvas), frame.number or 1)
+    scene = scene_at(resolved.overrides.scene(canvas), 1 if frame.number is None else frame.number)
     placed = resolved.shot.place(frame, scene, drawing.size)
     hints = HintLoader(resolved.shot, neighbour_loader).hints(frame, drawing, scene)
     return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame), hints)

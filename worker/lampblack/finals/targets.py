@@ -10,6 +10,7 @@ from typing import get_args
 
 from ..choices import ApartKind, FileFormat
 from ..composite.apart import LAYERS
+from ..drawing import PICTURE_SUFFIXES
 from ..errors import LampblackError
 from ..shot import ShotFrame
 from .exr import exr_stamp
@@ -136,7 +137,7 @@ class Targets:
                 f"The output folder {self.folder} cannot be made.", "Choose another.", str(error)
             ) from error
         beside = {source.resolve() for source in sources if source.resolve().parent == folder}
-        if not self._named and any(path.suffix.lower() == ".png" for path in beside):
+        if not self._named and any(path.suffix.lower() in PICTURE_SUFFIXES for path in beside):
             raise LampblackError(
                 f"{self.folder} holds the drawings themselves; they would be replaced.",
                 "Choose another output folder.",

@@ -117,9 +117,11 @@ def frame_list(message: Message) -> None:
     """The ranges of a job run forwards and name a bounded number of frames."""
     if isinstance(message, Render):
         try:
-            parse_frames(message.frames)
+            numbers = parse_frames(message.frames)
         except DrawingError as error:
             raise ProtocolError(ErrorCode.BAD_VALUE, error.what) from error
+        if numbers[0] < 0:
+            raise ProtocolError(ErrorCode.BAD_VALUE, f"{numbers[0]} is not a frame of an animation")
 
 
 def plane_count(planes: Sequence[Plane], payloads: Sequence[memoryview]) -> None:
