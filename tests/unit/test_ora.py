@@ -61,7 +61,7 @@ def test_roles_are_those_of_any_project(tmp_path: Path) -> None:
     assert tuple(finished[0, 25]) == (0, 0, 200, 255)
 
 
-@pytest.mark.parametrize("source", ["../r.png", "data/../../r.png", "/etc/passwd", "", "data/"])
+@pytest.mark.parametrize("source", ["../r.png", "data/../../r.png", "/etc/passwd"])
 def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, source: str) -> None:
     shot = shot_of(write_ora(tmp_path, f'<layer src="{source}"/>'))
     with pytest.raises(ProjectError, match="outside its own folder"):

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import Image
 
 from lampblack.choices import LayerRole
 from lampblack.errors import LampblackWarning, ProjectError
@@ -60,6 +61,7 @@ LAYERS = [
     layer(4, "hidden", [image(1, "secret.png")], visible=False),
     layer(5, "near", [image(2, "near.png", -70, 10), image(5, "near.png", 900, 10)]),
 ]
+BALL = layer(2, "figure", [image(1, "ball.png")])
 ROLES: dict[str, LayerRole] = {"figure": "character"}
 
 
@@ -186,16 +188,15 @@ def test_sources_hidden_behind_their_result_are_lit(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "source",
-    ["../../secret.png", "/etc/passwd", "..", "", "a/b.png", "C:\\x.png", "..\\x.png", "x" * 300],
+    ["../../secret.png", "/etc/passwd", "..", "a/b.png", "C:\\x.png", "..\\x.png", "x" * 300],
 )
 @pytest.mark.parametrize("suffix", [".pclx", ".pcl"])
 def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, source: str, suffix: str) -> None:
     (tmp_path / "secret.png").write_bytes(FILES["secret.png"])
     xml = document([layer(2, "figure", [image(1, source)])])
     path = write_project(tmp_path / f"walk{suffix}", xml, {})
-    shot = shot_of(path)
     with pytest.raises(ProjectError, match="outside its own folder"):
-        shot.cel(shot.frames[0])
+        shot_of(path)
 
 
 def test_links_that_lead_elsewhere_are_refused(tmp_path: Path) -> None:
@@ -208,24 +209,84 @@ def test_links_that_lead_elsewhere_are_refused(tmp_path: Path) -> None:
         shot.cel(shot.frames[0])
 
 
-def test_missing_and_broken_pictures_are_told_by_their_frame(tmp_path: Path) -> None:
-    keys = [image(1, "ball.png"), image(2, "gone.png"), image(3, "bad.png"), image(4, "big.png")]
+def test_broken_pictures_are_told_by_their_frame(tmp_path: Path) -> None:
+    keys = [image(1, "ball.png"), image(2, "bad.png"), image(3, "big.png")]
     enormous = bytearray(png(draw_ball(32)))
     enormous[16:24] = (100_000).to_bytes(4, "big") * 2
     files = {"ball.png": FILES["ball.png"], "bad.png": b"\x89PNG", "big.png": bytes(enormous)}
     path = write_project(tmp_path / "w.pclx", document([layer(2, "figure", keys)]), files)
     shot = shot_of(path)
     assert shot.cel(shot.frames[0]).pixels.any()
-    for frame, words in zip(shot.frames[1:], ("gone.png", "frame 3", "too large"), strict=True):
+    for frame, words in zip(shot.frames[1:], ("frame 2", "too large"), strict=True):
         with pytest.raises(ProjectError, match=words):
             shot.cel(frame)
+
+
+INLINE = ARCH[ARCH.index("<curve") : ARCH.index("</image>")]
+HABITS = {
+    "never drawn": [layer(2, "x", [image(1, "a.png"), image(2, "gone.png"), image(3, "a.png")])],
+    "no file named": [layer(2, "x", [image(1, "a.png"), 'frame="2"', image(3, "a.png", 9, 9)])],
+    "vector never drawn": [
+        layer(2, "x", ['frame="1" src="a.vec"', 'frame="2" src="b.vec"'], kind=2)
+    ],
+    "vector in the XML": [
+        '<layer id="2" type="2" name="v" visibility="1">'
+        f'<image frame="1" type="vector">{INLINE}</image><image frame="3" type="vector"/></layer>'
+    ],
+    "key at 0": [layer(2, "x", [image(0, "a.png", -40, -40), image(2, "a.png", 5, -40)])],
+    "key before 0": [layer(2, "x", [image(-3, "a.png", -40, -40), image(3, "a.png", 5, 0)])],
+    "two keys at one frame": [layer(2, "x", [image(1, "a.png"), image(1, "a.png", -40, 5)])],
+    "JPEG under a PNG's name": [layer(2, "x", [image(1, "jpeg.png", -40, -40)])],
+    "sound": [
+        layer(2, "x", [image(1, "a.png")]),
+        '<layer id="9" type="4" name="s" visibility="1"><sound frame="1" src="x.wav"/></layer>',
+    ],
+}
+
+
+@needs_pencil2d
+@pytest.mark.parametrize("habit", HABITS)
+def test_habits_of_pencil2d_are_shown_as_it_shows_them(tmp_path: Path, habit: str) -> None:
+    jpeg = io.BytesIO()
+    Image.fromarray(draw_ball(90)[..., :3]).save(jpeg, "JPEG", quality=95)
+    contents = {"a.png": FILES["ball.png"], "jpeg.png": jpeg.getvalue(), "a.vec": ARCH.encode()}
+    contents["palette.xml"] = PALETTE.encode()
+    path = write_project(tmp_path / "w.pclx", document(HABITS[habit]), contents)
+    ours, theirs = unlit(shot_of(path)), exported(path, 1, 3)
+    for mine, truth in zip(ours, theirs, strict=False):
+        assert difference(mine, truth).max() <= (3 if "JPEG" in habit else 2)
+    assert theirs[0].any()
+
+
+@needs_pencil2d
+@pytest.mark.parametrize("old", ["no camera", "no document"])
+def test_projects_of_early_versions_are_shown_as_pencil2d_shows_them(
+    tmp_path: Path, old: str
+) -> None:
+    xml = document([BALL])
+    if old == "no camera":
+        start = xml.index('<layer id="1"')
+        xml = xml[:start] + xml[xml.index("</layer>") + len("</layer>") :]
+    else:
+        drawn = xml[xml.index("<object>") : xml.index("</object>")]
+        xml = f"<!DOCTYPE PencilDocument>{drawn}</object>"
+    path = write_project(tmp_path / "w.pclx", xml, FILES)
+    mine, truth = unlit(shot_of(path))[0], exported(path, 1, 1)[0]
+    assert mine.shape == truth.shape
+    assert difference(mine, truth).max() <= 2
+
+
+def test_a_picture_that_was_lost_is_told(tmp_path: Path) -> None:
+    xml = document([layer(2, "figure", [image(1, "ball.png"), image(2, "gone.png", -9, 4)])])
+    path = write_project(tmp_path / "w.pclx", xml, FILES)
+    with pytest.warns(LampblackWarning, match="frame 2 of 'figure'"):
+        assert not unlit(shot_of(path))[1].any()
 
 
 BOMB = """<!DOCTYPE a [<!ENTITY b "bbbbbbbbbb"><!ENTITY c "&b;&b;&b;&b;">]>
 <document><object><layer type="5" width="9" height="9" name="&c;"/></object></document>"""
 OUTSIDE = """<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]>
 <document><object><layer type="5" width="9" height="9" name="&b;"/></object></document>"""
-BALL = layer(2, "figure", [image(1, "ball.png")])
 
 
 @pytest.mark.parametrize(
@@ -244,7 +305,6 @@ BALL = layer(2, "figure", [image(1, "ball.png")])
         document([BALL], size=(0, 9)),
         document([BALL], size=(1_000_000, 9)),
         document([BALL], size=(16000, 16000)),
-        document([BALL.replace('frame="1"', 'frame="0"')]),
         document([BALL.replace('frame="1"', 'frame="1e9"')]),
         document([BALL.replace('frame="1"', 'frame="900000"')]),
         document([BALL.replace('topLeftX="0"', 'topLeftX="nan"')]),
@@ -278,6 +338,12 @@ def test_files_that_are_no_projects_are_told(tmp_path: Path) -> None:
         path.write_bytes(content)
         with pytest.raises(ProjectError):
             read_project(path)
+    nested = tmp_path / "nested.pclx"
+    with zipfile.ZipFile(nested, "w") as archive:
+        archive.writestr("walk/main.xml", document([BALL]))
+    with pytest.raises(ProjectError, match="'walk/'") as told:
+        read_project(nested)
+    assert "at the top" in told.value.remedy
     for path in (tmp_path / "none.pclx", tmp_path):
         with pytest.raises(ProjectError, match="no project"):
             read_project(path)

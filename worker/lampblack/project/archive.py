@@ -27,6 +27,13 @@ class Archive(Protocol):
     def xml(self) -> bytes:
         """The XML that describes the project."""
 
+    def has(self, name: str) -> bool:
+        """Whether the data folder has such a file.
+
+        Raises:
+            ProjectError: the name leads out of the folder.
+        """
+
     def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
         """A file of the data folder.
 
@@ -63,13 +70,36 @@ class _Zipped:
             self._zip = zipfile.ZipFile(path)
         except (zipfile.BadZipFile, OSError, ValueError, UnicodeDecodeError) as error:
             raise ProjectError(
-                f"{path} is not a sound project.", "Save it again.", str(error)
+                f"{path} cannot be opened: it was cut short, or it is no project.",
+                "Restore it from a backup. A program that repairs zip files may save some of it.",
+                str(error),
             ) from error
-        if len(self._zip.namelist()) > MAX_ENTRIES:
+        self._names = frozenset(self._zip.namelist())
+        if len(self._names) > MAX_ENTRIES:
             raise ProjectError(f"{path} holds more than {MAX_ENTRIES} files.")
 
     def xml(self) -> bytes:
+        if self._description not in self._names:
+            self._explain()
         return self._read(self._description, MAX_XML_BYTES)
+
+    def _explain(self) -> None:
+        """Say why the description is not there."""
+        wanted = self._description
+        inner = [name for name in self._names if name.endswith(f"/{wanted}")]
+        if inner:
+            raise ProjectError(
+                f"{self.path.name} has its files in a folder, {inner[0].removesuffix(wanted)!r}.",
+                f"Unpack it, and pack what is in that folder: {wanted} must be at the top.",
+            )
+        raise ProjectError(
+            f"{self.path.name} is a zip file, but no project: it has no {wanted}.",
+            "Restore the project from a backup.",
+        )
+
+    def has(self, name: str) -> bool:
+        _check_name(name)
+        return f"data/{name}" in self._names
 
     def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
         _check_name(name)
@@ -100,6 +130,10 @@ class _Folder:
 
     def xml(self) -> bytes:
         return self._read(self.path, MAX_XML_BYTES)
+
+    def has(self, name: str) -> bool:
+        _check_name(name)
+        return (self._data / name).is_file()
 
     def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
         _check_name(name)

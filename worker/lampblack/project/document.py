@@ -1,7 +1,8 @@
 """The description of a Pencil2D project: layers, their keyframes, and cameras.
 
 Pencil2D's frame of reference: x right, y *down*, with the origin at the centre of the view of a
-camera that has not moved. Frames count from 1. A keyframe holds until the next one.
+camera that has not moved. Frames count from 1. A keyframe holds until the
+next one; it may come before frame 1.
 """
 
 from __future__ import annotations
@@ -22,9 +23,10 @@ class Key:
     """A drawing on a layer.
 
     Attributes:
-        file: name in the project's data folder.
+        file: name in the project's data folder; empty for a blank drawing.
         left, top: position of a bitmap's top left corner.
         opacity: 0 to 1.
+        inline: XML of a vector drawing that is in the description itself, as Pencil 0.4 wrote it.
     """
 
     frame: int
@@ -32,6 +34,12 @@ class Key:
     left: int = 0
     top: int = 0
     opacity: float = 1.0
+    inline: bytes = b""
+
+    @property
+    def blank(self) -> bool:
+        """Whether nothing is drawn."""
+        return not self.file and not self.inline
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ class LayerPainter:
         canvas = Image.new("RGBA", (region.width, region.height))
         for layer in layers:
             key = layer.key_at(frame)
-            if key is not None:
+            if key is not None and not key.blank:
                 self._lay(canvas, layer, key)
         return np.array(canvas)
 
@@ -56,8 +56,9 @@ class LayerPainter:
         shown: list[object] = [self.region, self.origin]
         for layer in layers:
             key = layer.key_at(frame)
-            if key is not None:
-                shown += [layer.kind, key.left, key.top, key.opacity, self._digest(key.file)]
+            if key is not None and not key.blank:
+                content = key.inline or self._digest(key.file)
+                shown += [layer.kind, key.left, key.top, key.opacity, content]
                 if layer.kind == "vector":
                     shown.append(self._digest(PALETTE))
         return digest(*shown)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import Element, tostring
 
 from ..errors import LampblackWarning, ProjectError
 from .archive import ORA, Archive, open_archive
@@ -19,6 +20,8 @@ MAX_LAYERS = 1000
 MAX_FRAME = 999_999
 MAX_KEYS = 100_000
 LONGEST = 100_000
+DEFAULT_CAMERA = Camera("Camera Layer", 800, 600, (CameraKey(1),))
+"""What Pencil2D adds to a project of its early versions, which has none."""
 
 
 def read_project(path: str | Path) -> tuple[Project, Archive]:
@@ -28,8 +31,10 @@ def read_project(path: str | Path) -> tuple[Project, Archive]:
         ProjectError: the file is no project, is damaged, or has a value that makes no sense.
     """
     archive = open_archive(Path(path))
-    described = parse_stack if archive.path.suffix.lower() == ORA else parse
-    return described(archive.xml(), archive.path.name), archive
+    xml, name = archive.xml(), archive.path.name
+    if archive.path.suffix.lower() == ORA:
+        return parse_stack(xml, name), archive
+    return _blanked(parse(xml, name), archive), archive
 
 
 def parse(xml: bytes, name: str) -> Project:
@@ -40,14 +45,12 @@ def parse(xml: bytes, name: str) -> Project:
     """
     root = sound_xml(xml, name)
     described = [element for top in root.iter("object") for element in top.findall("layer")]
-    if root.tag != "document" or not described:
-        raise ProjectError(f"{name} describes no layers.", "Save it again in Pencil2D.")
+    if root.tag not in ("document", "object") or not described:
+        raise ProjectError(f"{name} is no project with layers.", "Save it again in Pencil2D.")
     if len(described) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
     layers = tuple(_layer(e, KINDS[e.get("type", "")]) for e in described if e.get("type") in KINDS)
-    cameras = tuple(_camera(e) for e in described if e.get("type") == CAMERA)
-    if not cameras:
-        raise ProjectError(f"{name} has no camera layer.", "Save it again in Pencil2D.")
+    cameras = tuple(_camera(e) for e in described if e.get("type") == CAMERA) or (DEFAULT_CAMERA,)
     keyed: list[tuple[Key, ...] | tuple[CameraKey, ...]] = [thing.keys for thing in layers]
     keyed += [camera.keys for camera in cameras]
     length = max((key.frame for keys in keyed for key in keys), default=1)
@@ -67,6 +70,7 @@ def _layer(element: Element, kind: Kind) -> Layer:
             left=whole(image, "topLeftX", 0),
             top=whole(image, "topLeftY", 0),
             opacity=min(1.0, max(0.0, number(image, "opacity", 1.0))),
+            inline=tostring(image) if kind == "vector" and image.get("src") is None else b"",
         )
         keys[key.frame] = key
     ordered = tuple(keys[frame] for frame in sorted(keys))
@@ -101,6 +105,36 @@ def _camera(element: Element) -> Camera:
     return Camera(name, width, height, tuple(keys[frame] for frame in sorted(keys)))
 
 
+def _blanked(project: Project, archive: Archive) -> Project:
+    """Pencil2D writes no picture for a keyframe that nobody drew on, and shows nothing there.
+
+    Warns:
+        LampblackWarning: a picture that was drawn has been lost: its place is not the origin.
+    """
+    lost: list[str] = []
+
+    def blanked(layer: Layer, key: Key) -> Key:
+        if key.inline or (key.file and archive.has(key.file)):
+            return key
+        if key.file and (key.left, key.top) != (0, 0):
+            lost.append(f"frame {key.frame} of {layer.name!r}")
+        return replace(key, file="")
+
+    layers = tuple(
+        replace(layer, keys=tuple(blanked(layer, key) for key in layer.keys))
+        for layer in project.layers
+    )
+    if lost:
+        named = ", ".join(lost[:8]) + (", ..." if len(lost) > 8 else "")
+        warnings.warn(
+            f"The pictures of {named} are not in {archive.path.name}; nothing is shown there. "
+            "Restore them from a backup, or draw them again.",
+            LampblackWarning,
+            stacklevel=3,
+        )
+    return replace(project, layers=layers)
+
+
 def _name(element: Element) -> str:
     return element.get("name", "")[:200]
 
@@ -112,9 +146,12 @@ def _bounded(elements: list[Element], name: str) -> Iterator[Element]:
 
 
 def _frame(element: Element, name: str) -> int:
+    """A frame before 1 is never shown itself, but its key holds until the next one."""
     frame = whole(element, "frame", 0)
-    if not 1 <= frame <= MAX_FRAME:
-        raise ProjectError(f"The layer {name!r} has a keyframe at {frame}.", "Frames count from 1.")
+    if abs(frame) > MAX_FRAME:
+        raise ProjectError(
+            f"The layer {name!r} has a keyframe at {frame}.", f"The last frame is {MAX_FRAME}."
+        )
     return frame
 
 

@@ -8,11 +8,13 @@ import subprocess
 import tempfile
 import weakref
 import zipfile
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+from defusedxml.ElementTree import fromstring
 from numpy.typing import NDArray
 
 from ..drawing import load_picture
@@ -61,14 +63,16 @@ class VectorPictures:
             )
         folder = Path(tempfile.mkdtemp(prefix="lampblack-vector-"))
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
-        project = folder / "layer.pclx"
+        project, keys = folder / "layer.pclx", [key for key in layer.keys if not key.blank]
         with zipfile.ZipFile(project, "w") as archive:
-            for number, key in enumerate(layer.keys, start=1):
-                archive.writestr(f"data/{number}.vec", self.archive.read(key.file))
-            archive.writestr(f"data/{PALETTE}", self.archive.read(PALETTE))
-            archive.writestr("main.xml", self._document(layer, region))
-        self._run(program, project, folder / "frame.png", len(layer.keys))
-        for number, key in enumerate(layer.keys, start=1):
+            for number, key in enumerate(keys, start=1):
+                if key.file:
+                    archive.writestr(f"data/{number}.vec", self.archive.read(key.file))
+            if self.archive.has(PALETTE):
+                archive.writestr(f"data/{PALETTE}", self.archive.read(PALETTE))
+            archive.writestr("main.xml", self._document(keys, region))
+        self._run(program, project, folder / "frame.png", len(keys))
+        for number, key in enumerate(keys, start=1):
             drawn = folder / f"frame{number:04d}.png"
             if not drawn.exists():
                 raise ProjectError(
@@ -77,7 +81,7 @@ class VectorPictures:
                 )
             self._exported[layer.number, key.frame] = drawn
 
-    def _document(self, layer: Layer, region: Region) -> bytes:
+    def _document(self, keys: Sequence[Key], region: Region) -> bytes:
         document = ElementTree.Element("document")
         layers = ElementTree.SubElement(document, "object")
         camera = ElementTree.SubElement(
@@ -90,8 +94,13 @@ class VectorPictures:
         drawings = ElementTree.SubElement(
             layers, "layer", id="2", type="2", name="drawings", visibility="1"
         )
-        for number in range(1, len(layer.keys) + 1):
-            ElementTree.SubElement(drawings, "image", frame=str(number), src=f"{number}.vec")
+        for number, key in enumerate(keys, start=1):
+            if key.inline:
+                drawing: ElementTree.Element = fromstring(key.inline, forbid_entities=True)
+                drawing.set("frame", str(number))
+                drawings.append(drawing)
+            else:
+                ElementTree.SubElement(drawings, "image", frame=str(number), src=f"{number}.vec")
         text: bytes = ElementTree.tostring(document, "utf-8")
         return b"<!DOCTYPE PencilDocument>\n" + text
 
