@@ -67,14 +67,27 @@ def test_a_project_is_lit_under_its_sidecar_and_only_what_changed_again(
 def test_broken_frames_of_a_project_are_told_and_the_others_lit(
     run: Run, tmp_path: Path, unrendered: list[str]
 ) -> None:
-    keys = [image(1, "ball.png", -40, -40), image(3, "gone.png"), image(4, "ball.png", -40, -40)]
+    keys = [image(1, "ball.png", -40, -40), image(3, "bad.png"), image(4, "ball.png", -40, -40)]
+    xml = document([layer(2, "ball", keys)], size=(96, 96))
+    pictures = {"ball.png": png(draw_ball(80)), "bad.png": b"\x89PNG"}
+    project = write_project(tmp_path / "w.pclx", xml, pictures)
+    done = run("render", project, "-o", tmp_path / "lit")
+    assert done.code == 1
+    assert "w.0003.png: " in done.err
+    assert "bad.png of frame 3" in done.err
+    assert files(tmp_path / "lit") == {f"w.{n:04d}.png" for n in (1, 2, 4)}
+    assert len(unrendered) == 1
+
+
+def test_frames_that_the_artist_left_blank_are_not_warned_of(
+    run: Run, tmp_path: Path, unrendered: list[str]
+) -> None:
+    keys = [image(1, "ball.png", -40, -40), image(3, "never drawn.png")]
     xml = document([layer(2, "ball", keys)], size=(96, 96))
     project = write_project(tmp_path / "w.pclx", xml, {"ball.png": png(draw_ball(80))})
     done = run("render", project, "-o", tmp_path / "lit")
-    assert done.code == 1
-    assert "w.0003.png: w.pclx has no data/gone.png" in done.err
-    assert files(tmp_path / "lit") == {f"w.{n:04d}.png" for n in (1, 2, 4)}
-    assert len(unrendered) == 1
+    assert (done.code, "warning" in done.err) == (0, False)
+    assert not load_picture(tmp_path / "lit" / "w.0003.png").any()
 
 
 def test_options_that_do_not_fit_a_project_are_told(

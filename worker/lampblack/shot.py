@@ -85,12 +85,14 @@ class ShotFrame:
         name: the file's name with suffix.
         drawing: identifies the cel: frames with the same one are lit once.
         setting: identifies the layers around the cel, and the camera.
+        blank: nothing is drawn on the lit layers, on purpose: there is nothing to warn of.
     """
 
     number: int | None
     name: str
     drawing: str
     setting: str = ""
+    blank: bool = False
 
 
 class Shot(Protocol):

@@ -167,8 +167,9 @@ class _Run:
                     self._fail(frame, error)
             case Blank(frames, pixels, reason):
                 for frame in self._write(frames, lambda: LitCel.blank(pixels, self.job.targets)):
-                    self.outcome.unlit.append(frame)
-                    self.listener.on_blank(frame, reason)
+                    if not frame.blank:
+                        self.outcome.unlit.append(frame)
+                        self.listener.on_blank(frame, reason)
                     self.listener.on_frame(frame, None, kept=False)
             case Traced(ready, _):
                 first, _ = ready.frames[0]

@@ -23,7 +23,7 @@ from ..errors import ProjectError
 from ..scene import Canvas, Scene
 from ..shot import MAX_LAYERS, Cel, CelLayer, ShotFrame, cropped_layer
 from .archive import Archive
-from .document import Camera, Project
+from .document import Camera, Layer, Project
 from .paint import LayerPainter, Picture
 from .region import Region
 from .stack import Roles, stack_layers
@@ -69,12 +69,14 @@ class ProjectShot:
         stack, paint = self._stack, self._painter
         around = [paint.fingerprint(layers, number) for layers in (stack.below, stack.above)]
         lit = [paint.fingerprint(layers, number) for layers in (stack.lit, stack.line)]
-        named = [layer.name for layer in stack.lit if layer.key_at(number) is not None]
+        drawn = [layer for layer in stack.lit if _is_drawn(layer, number)]
+        named = [layer.name for layer in drawn]
         return ShotFrame(
             number,
             f"{stem}.{number:04d}.png",
             digest(*lit, *named) if len(named) > 1 else " ".join(lit),
             f"{around} {self._through(number)} {self.canvas}",
+            blank=not drawn,
         )
 
     def cel(self, frame: ShotFrame) -> Cel:
@@ -87,7 +89,7 @@ class ProjectShot:
     def _layers(self, number: int) -> tuple[CelLayer, ...]:
         """The lit layers apart, but for those that show nothing. None if there is only one, or
         more than ``MAX_LAYERS``."""
-        shown = [layer for layer in self._stack.lit if layer.key_at(number) is not None]
+        shown = [layer for layer in self._stack.lit if _is_drawn(layer, number)]
         found: list[CelLayer] = []
         for layer in shown if len(shown) > 1 else []:
             picture = self._painter.paint([layer], number)
@@ -130,6 +132,11 @@ class ProjectShot:
         a, b, c, d, e, f = self._camera.at(number)
         left, top = self.region.left, self.region.top
         return a, b, c + a * left + b * top, d, e, f + d * left + e * top
+
+
+def _is_drawn(layer: Layer, frame: int) -> bool:
+    key = layer.key_at(frame)
+    return key is not None and not key.blank
 
 
 def _choose(project: Project, name: str | None) -> Camera:
