@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -70,8 +71,7 @@ class LayerPainter:
             else:
                 name = f"{key.file} of frame {key.frame} on layer {layer.name!r}"
                 picture = read_picture(io.BytesIO(self.archive.read(key.file)), name)
-                left = key.left + self.origin[0] - self.region.left
-                top = key.top + self.origin[1] - self.region.top
+                picture, left, top = self._placed(picture, key)
         except ProjectError:
             raise
         except DrawingError as error:
@@ -86,6 +86,19 @@ class LayerPainter:
             picture[..., 3] = np.rint(picture[..., 3] * key.opacity)
         canvas.alpha_composite(Image.fromarray(picture), (max(0, left), max(0, top)))
 
+    def _placed(self, picture: Picture, key: Key) -> tuple[Picture, int, int]:
+        """A bitmap in the region's pixels, and its place there."""
+        region = self.region
+        left, top = key.left + self.origin[0], key.top + self.origin[1]
+        if region.scale == 1:
+            return picture, left - int(region.left), top - int(region.top)
+        return _reduced(
+            picture,
+            left * region.scale - region.left,
+            top * region.scale - region.top,
+            region.scale,
+        )
+
     def _digest(self, name: str) -> str:
         if name not in self._digests:
             try:
@@ -93,3 +106,23 @@ class LayerPainter:
             except ProjectError as error:  # reported when the frame is painted
                 self._digests[name] = digest(name, str(error))
         return self._digests[name]
+
+
+def _reduced(picture: Picture, left: float, top: float, scale: float) -> tuple[Picture, int, int]:
+    """``picture`` made smaller by ``scale`` with its corner at (left, top), on whole pixels. Each
+    is the mean of what it covers. Returns it with its new corner."""
+    height, width = picture.shape[:2]
+    place = []
+    for start, side in ((left, width), (top, height)):
+        first = math.floor(start)
+        count = max(1, math.ceil(start + side * scale) - first)
+        before = math.ceil((start - first) / scale)
+        past = math.ceil((first + count - start) / scale) - side
+        place.append((first, count, before, max(0, past), before - (start - first) / scale))
+    (x, columns, before_x, past_x, skip_x), (y, rows, before_y, past_y, skip_y) = place
+    padded = np.pad(picture, ((before_y, past_y), (before_x, past_x), (0, 0)))
+    box = (skip_x, skip_y, skip_x + columns / scale, skip_y + rows / scale)
+    box = (*box[:2], min(box[2], padded.shape[1]), min(box[3], padded.shape[0]))
+    image = Image.fromarray(padded).convert("RGBa")
+    smaller = image.resize((columns, rows), Image.Resampling.BOX, box)
+    return np.asarray(smaller.convert("RGBA")), x, y

@@ -7,6 +7,7 @@ moves is lit once, and its light does not swim.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +20,7 @@ from ..cache import digest
 from ..camera import Affine, look_through, on_canvas, scene_in_view
 from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
-from ..errors import ProjectError
+from ..errors import LampblackWarning, ProjectError
 from ..scene import Canvas, Scene
 from ..shot import MAX_LAYERS, Cel, CelLayer, ShotFrame, cropped_layer
 from .archive import Archive
@@ -103,8 +104,8 @@ class ProjectShot:
         scene = on_canvas(scene, self.canvas)
         if self.region == Region(0, 0, self.canvas.width, self.canvas.height):
             return scene
-        left, top = self.region.left, self.region.top
-        return scene_in_view(scene, (1.0, 0.0, -left, 0.0, 1.0, -top), size)
+        left, top, scale = self.region.left, self.region.top, self.region.scale
+        return scene_in_view(scene, (scale, 0.0, -left, 0.0, scale, -top), size)
 
     def camera(self, frame: ShotFrame) -> Affine:
         return self._through(_number(frame))
@@ -130,6 +131,7 @@ class ProjectShot:
     def _through(self, number: int) -> Affine:
         """From the region's pixels to the picture's."""
         a, b, c, d, e, f = self._camera.at(number)
+        a, b, d, e = (each / self.region.scale for each in (a, b, d, e))
         left, top = self.region.left, self.region.top
         return a, b, c + a * left + b * top, d, e, f + d * left + e * top
 
@@ -150,24 +152,35 @@ def _choose(project: Project, name: str | None) -> Camera:
 
 
 def _region(camera: Camera, length: int) -> Region:
-    """The part of the canvas that the camera sees, over all frames."""
+    """The part of the canvas that the camera sees, over all frames. Where it shows the canvas at
+    half size or smaller in every frame, no more is painted than that."""
     low, high = np.full(2, math.inf), np.full(2, -math.inf)
     corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * [camera.width, camera.height]
+    closest = 0.0
     for matrix in {camera.at(number) for number in range(1, length + 1)}:
         a, b, c, d, e, f = matrix
-        if abs(a * e - b * d) < 1e-6:
+        area = abs(a * e - b * d)
+        if area < 1e-6:
             raise ProjectError("The camera flattens a frame to nothing.", "Move its keys apart.")
+        closest = max(closest, math.sqrt(area))
         seen = (corners - [c, f]) @ np.linalg.inv(np.array([[a, b], [d, e]])).T
         low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
-    (left, top), (right, bottom) = np.floor(low + 1e-6), np.ceil(high - 1e-6)
-    width, height = int(right - left), int(bottom - top)
-    if max(width, height) > MAX_SIDE or width * height > MAX_PIXELS:
-        raise ProjectError(
-            f"The camera sees {width} x {height} pixels of the canvas over all frames.",
-            f"At most {MAX_PIXELS // 1_000_000} megapixels are lit: move the camera less, or "
-            "render the project in parts, each with its own camera.",
+    finest = closest if closest <= 0.5 else 1.0
+    extent = high - low
+    scale = min(finest, MAX_SIDE / extent.max(), math.sqrt(MAX_PIXELS / extent.prod()))
+    if scale < finest:
+        scale *= 0.999  # leaves room for rounding up
+        warnings.warn(
+            f"The camera sees {extent[0]:.0f} x {extent[1]:.0f} pixels of the canvas over all "
+            f"frames; they are lit at {100 * scale:.0f} % of their size. It is less when the "
+            "camera moves less.",
+            LampblackWarning,
+            stacklevel=3,
         )
-    return Region(int(left), int(top), width, height)
+    # Pixels that are those of a still camera's picture are not resampled again.
+    left, top = np.floor(low + 1e-6) if scale == 1 else low * scale
+    width, height = np.ceil(high * scale - (left, top) - 1e-6).astype(int)
+    return Region(float(left), float(top), int(width), int(height), float(scale))
 
 
 def _number(frame: ShotFrame) -> int:

@@ -88,9 +88,10 @@ class VectorPictures:
             layers, "layer", id="1", type="5", name="Camera", visibility="1",
             width=str(region.width), height=str(region.height),
         )  # fmt: skip
-        dx = self.origin[0] - region.left - region.width // 2
-        dy = self.origin[1] - region.top - region.height // 2
-        ElementTree.SubElement(camera, "camera", frame="1", r="0", s="1", dx=str(dx), dy=str(dy))
+        dx = self.origin[0] - (region.left + region.width // 2) / region.scale
+        dy = self.origin[1] - (region.top + region.height // 2) / region.scale
+        view = {"r": "0", "s": f"{region.scale:.9g}", "dx": f"{dx:.9g}", "dy": f"{dy:.9g}"}
+        ElementTree.SubElement(camera, "camera", {"frame": "1", **view})
         drawings = ElementTree.SubElement(
             layers, "layer", id="2", type="2", name="drawings", visibility="1"
         )
