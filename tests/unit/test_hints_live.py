@@ -9,6 +9,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from lampblack.cache import ArrayCache
 from lampblack.choices import FrontSide
@@ -19,7 +20,16 @@ from lampblack.finals.settings import RenderSettings
 from lampblack.pipeline import Pipeline
 from lampblack.prepared import PreparedDrawing
 from lampblack.protocol import GetOverlaps, Overlaps
-from lampblack.scene import Depth, DepthHint, DepthPoint, Scene, default_scene, encode_scene
+from lampblack.scene import (
+    Depth,
+    DepthColour,
+    DepthHint,
+    DepthPoint,
+    DepthStroke,
+    Scene,
+    default_scene,
+    encode_scene,
+)
 from support.command_line import Run
 from support.drawings import draw_ball
 from support.preview_fakes import FakePredictor, Stage
@@ -94,6 +104,60 @@ def test_a_hint_of_another_frame_is_carried_to_the_one_in_sight(tmp_path: Path) 
     (overlap,) = overlaps(stage, 4).overlaps
     assert overlap.hinted
     assert side_in_front(stage) == "right"
+
+
+def bumped(x: float, frame: int = 1) -> Scene:
+    """A scene with a bump at ``x``, in the middle row of the ball."""
+    stroke = DepthStroke(frame, (DepthPoint(x, SIZE / 2),), "bump", 9.0, 1.0)
+    return replace(default_scene(SIZE, SIZE), depth=Depth(strokes=(stroke,)))
+
+
+def test_strokes_and_colours_shape_the_preview_and_are_undone(tmp_path: Path) -> None:
+    stage = Stage(tmp_path)
+    stage.greet(CLIENT)
+    stage.announce(CLIENT, 1, draw_ball(SIZE))
+    stage.announce(CLIENT, 4, np.roll(draw_ball(SIZE), 3, axis=0))
+    near = Depth(colours=(DepthColour("#dc783c", nearer=0.2),))
+    for frame in (1, 4):
+        stage.set_scene(CLIENT, scene())
+        stage.look(CLIENT, frame, SIZE)
+        stage.settle()
+        assert side_in_front(stage) == "joined"
+        assert stage.renderer.surface is not None
+        highest = stage.renderer.surface.relief.vertices[:, 2].max()
+        stage.set_scene(CLIENT, bumped(SIZE / 2 - 10))
+        stage.settle()
+        assert side_in_front(stage) == "left"
+        stage.set_scene(CLIENT, bumped(SIZE / 2 + 10))
+        stage.settle()
+        assert side_in_front(stage) == "right"
+        stage.set_scene(CLIENT, replace(scene(), depth=near))
+        stage.settle()
+        assert stage.renderer.surface.relief.vertices[:, 2].max() > highest + 10
+    assert stage.errors(CLIENT) == []
+
+
+def test_strokes_and_colours_shape_files(tmp_path: Path) -> None:
+    for number, shift in ((1, 0), (2, 5)):
+        save_picture(tmp_path / f"w.{number:04d}.png", np.roll(draw_ball(SIZE), shift, axis=0))
+    said = tmp_path / "said.json"
+    settings = RenderSettings(inputs=(str(tmp_path / "w.%04d.png"),), output="", steady=False)
+
+    def height(frame: int, depth: Depth) -> NDArray[np.float32]:
+        whole = json.loads(encode_scene(replace(scene(), depth=depth)))
+        said.write_text(json.dumps(whole["depth"]))
+        asked = msgspec.structs.replace(settings, frames=str(frame), depth_hints=str(said))
+        with Pipeline(ArrayCache(tmp_path / "cache"), predictor=FakePredictor()) as pipeline:
+            prepared = first_frame(resolve_shot(asked), pipeline).prepare(pipeline)
+            assert prepared.normals is None
+        return prepared.height
+
+    for frame, row in ((1, SIZE // 2), (2, SIZE // 2 + 5)):
+        raised = height(frame, bumped(SIZE / 2).depth) - height(frame, Depth())
+        assert raised[row, SIZE // 2] > 6
+        assert abs(raised[row, SIZE // 2 - 14]) < 0.5
+        near = height(frame, Depth(colours=(DepthColour("#dc783c", nearer=0.2),)))
+        assert near[row, SIZE // 2] - height(frame, Depth())[row, SIZE // 2] > 10
 
 
 @pytest.mark.parametrize("front", ["left", "right"])

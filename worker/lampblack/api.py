@@ -60,8 +60,12 @@ def light(
         scene = default_scene(canvas.width, canvas.height)
     elif not isinstance(scene, Scene):
         scene = read_scene(Path(scene))
-    hints = tuple(hint for hint in scene.depth.hints if hint.frame == 1)
-    scene = replace(scene_at(scene, 1), canvas=canvas, depth=replace(scene.depth, hints=hints))
+    depth = replace(
+        scene.depth,
+        hints=tuple(hint for hint in scene.depth.hints if hint.frame == 1),
+        strokes=tuple(stroke for stroke in scene.depth.strokes if stroke.frame == 1),
+    )
+    scene = replace(scene_at(scene, 1), canvas=canvas, depth=depth)
     with _ONE_AT_A_TIME:
         return _pipeline().render(drawing, scene)
 

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .scene import AreaLight, Canvas, DepthHint, Scene
+from .scene import AreaLight, Canvas, DepthHint, DepthStroke, Drawn, Scene
 
 Affine = tuple[float, float, float, float, float, float]
 """[a, b, c, d, e, f]: x' = a x + b y + c, y' = d x + e y + f, both in pixels, x right, y down."""
 IDENTITY: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 Sample = TypeVar("Sample", np.uint8, np.float32)
+Stroke = TypeVar("Stroke", DepthHint, DepthStroke, Drawn)
 
 
 def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
@@ -48,7 +49,11 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
     if floor is not None:
         floor = replace(floor, y=d * scene.canvas.width / 2 + e * floor.y + f)
     lights = tuple(seen(light) for light in scene.lights)
-    depth = replace(scene.depth, hints=tuple(hint_in_view(h, camera) for h in scene.depth.hints))
+    depth = replace(
+        scene.depth,
+        hints=tuple(hint_in_view(hint, camera) for hint in scene.depth.hints),
+        strokes=tuple(hint_in_view(stroke, camera) for stroke in scene.depth.strokes),
+    )
     return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth)
 
 
@@ -76,16 +81,14 @@ def box_on_canvas(
     return left, top, right - left, bottom - top
 
 
-def hint_in_view(hint: DepthHint, camera: Affine) -> DepthHint:
+def hint_in_view(hint: Stroke, camera: Affine) -> Stroke:
     """``hint`` seen through ``camera``; a mirroring camera also mirrors the sides of a stroke."""
     a, b, c, d, e, f = camera
     points = tuple(
         replace(p, x=a * p.x + b * p.y + c, y=d * p.x + e * p.y + f) for p in hint.points
     )
-    front = hint.front
-    if a * e < b * d and front != "joined":
-        front = "right" if front == "left" else "left"
-    return replace(hint, points=points, front=front)
+    scale = math.sqrt(abs(a * e - b * d))
+    return hint.placed(points, scale, mirrored=a * e < b * d)
 
 
 def is_shift(camera: Affine) -> bool:

@@ -27,6 +27,9 @@ FrontSide = Literal["left", "right", "joined"]
 LightKind = Literal["lamp", "sun"]
 """A lamp is a disk of light at its place; a sun shines from there on the whole canvas alike."""
 
+Brush = Literal["bump", "dent", "turn"]
+"""What a stroke does to the surface: raise it, lower it, or turn it to where the stroke goes."""
+
 BodyChoice = Literal["auto", "own", "below", "flat"]
 """The surface of a layer: found by itself, a body of its own, a part of the body below, or flat
 on it."""

@@ -19,6 +19,7 @@ from .cache import ArrayCache
 from .cache import digest as digest_of
 from .choices import DEFAULT_GRIDS, PipelineOptions
 from .composite import composite
+from .corrected import corrected_normals, corrections_of
 from .drawing import Drawing, DrawingPlanes
 from .drawing.morphology import from_nearest
 from .hints import hints_by_body, scaled_hint
@@ -29,7 +30,7 @@ from .normals.temporal.thumbnail import RegistrationThumbnail, make_thumbnail
 from .prepared import PreparedDrawing, block_middles, character_box
 from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
 from .render.light_pass_cache import LightPassCache
-from .scene import DepthHint, LayerBody, Scene
+from .scene import DepthColour, DepthHint, Hint, LayerBody, Scene
 from .stacked import seen_height, seen_normals, seen_overlaps, stack_bodies
 from .surface import (
     Overlap,
@@ -39,6 +40,7 @@ from .surface import (
     solve,
     solve_with_overlaps,
 )
+from .surface.cuts import Cuts
 from .surface.overlap import pack_overlaps, unpack_overlaps
 
 MAX_SURFACE_PX = 2048
@@ -212,7 +214,7 @@ class Pipeline:
         drawing: Drawing,
         progress: Progress = lambda share: None,
         neighbours: LazyNeighbours | None = None,
-        hints: Sequence[DepthHint] = (),
+        hints: Sequence[Hint] = (),
     ) -> tuple[NDArray[np.float32], tuple[Overlap, ...]]:
         """The height, as from ``height``, and the overlaps along which it steps; ``hints`` are in
         pixels of the drawing."""
@@ -228,7 +230,11 @@ class Pipeline:
         if neighbours is not None:
             made_from += [drawing.albedo, neighbours.keys]
         if hints:
-            made_from.append(repr([(h.points, h.front, h.amount) for h in hints]))
+            # A stroke says the same whatever the frame on which it was drawn.
+            made_from.append(
+                repr([h if isinstance(h, DepthColour) else replace(h, frame=0) for h in hints])
+            )
+            made_from += [drawing.labels, drawing.palette.colours]
         height = self._cache.get(digest_of("steps", *made_from), lambda: inflate()[0])
         packed = self._cache.get(
             digest_of("overlaps", *made_from), lambda: pack_overlaps(inflate()[1])
@@ -240,19 +246,20 @@ class Pipeline:
         drawing: Drawing,
         progress: Progress,
         neighbours: LazyNeighbours | None,
-        hints: Sequence[DepthHint],
+        hints: Sequence[Hint],
     ) -> tuple[NDArray[np.float32], list[Overlap]]:
         prediction, mask = self._predicted(drawing, progress, neighbours), drawing.mask
         lines = dividing_lines(drawing.lines, drawing.ink, mask)
         step = surface_step(drawing)
         if step > 1:
             prediction, mask, lines = _shrink(prediction, mask, lines, step)
+        corrections = corrections_of(drawing, mask, hints, step)
         if self.options.solver == "direct":
-            height, overlaps = solve_with_overlaps(
-                prediction, mask, lines, [scaled_hint(hint, 1 / step) for hint in hints]
-            )
+            sides = [scaled_hint(hint, 1 / step) for hint in hints if isinstance(hint, DepthHint)]
+            height, overlaps = solve_with_overlaps(prediction, mask, lines, sides, corrections)
         else:
             height, overlaps = solve(prediction.normals, mask, solver=self.options.solver), []
+            height = corrections.height(height, mask, Cuts.none(mask.shape))
         height = guided_filter(height, mask) * np.float32(step)
         return height, [
             replace(overlap, points=overlap.points * step, amount=overlap.amount * step)
@@ -264,7 +271,7 @@ class Pipeline:
         drawing: Drawing,
         neighbours: LazyNeighbours | None = None,
         *,
-        hints: Sequence[DepthHint] = (),
+        hints: Sequence[Hint] = (),
         digest: str = "",
         progress: Progress = lambda share: None,
         with_normals: bool = False,
@@ -283,6 +290,8 @@ class Pipeline:
         height, overlaps = self.surface(drawing, progress, neighbours, hints)
         normals = self.normals(drawing, progress, neighbours) if with_normals else None
         step = surface_step(drawing)
+        if normals is not None:
+            normals = corrected_normals(drawing, normals, height, hints, step)
         return PreparedDrawing(
             digest=digest,
             detail="full",
@@ -301,7 +310,7 @@ class Pipeline:
         self,
         drawing: Drawing,
         neighbours: LazyNeighbours | None,
-        hints: Sequence[DepthHint],
+        hints: Sequence[Hint],
         digest: str,
         progress: Progress,
         with_normals: bool,
@@ -321,6 +330,10 @@ class Pipeline:
         step = surface_step(drawing)
         rows, columns = (side // step for side in drawing.mask.shape)
         mask = block_middles(drawing.mask, step)[:rows, :columns]
+        height = seen_height(bodies, mask, step)
+        normals = self.normals(drawing, progress, neighbours) if with_normals else None
+        if normals is not None:
+            normals = corrected_normals(drawing, normals, height, hints, step)
         return PreparedDrawing(
             digest=digest,
             detail="full",
@@ -328,9 +341,9 @@ class Pipeline:
             step=1,
             layers=drawing,
             scale=float(step),
-            height=seen_height(bodies, mask, step),
+            height=height,
             mask=mask,
-            normals=self.normals(drawing, progress, neighbours) if with_normals else None,
+            normals=normals,
             box=character_box(drawing.mask, 1),
             overlaps=seen_overlaps(bodies),
             bodies=bodies,
@@ -428,7 +441,9 @@ class Pipeline:
     ) -> NDArray[np.uint8]:
         """The lit drawing, (H, W, 4) uint8 sRGB, straight alpha. All hints of ``scene`` are about
         this drawing."""
-        prepared = self.prepare(drawing, neighbours, hints=scene.depth.hints)
+        prepared = self.prepare(
+            drawing, neighbours, hints=(*scene.depth.drawn, *scene.depth.colours)
+        )
         return composite(drawing, self.light(prepared, scene), scene)
 
 

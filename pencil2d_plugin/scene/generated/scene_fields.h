@@ -19,6 +19,9 @@ constexpr std::array<Choice<FrontSide>, 3> FrontSideChoices = {
 constexpr std::array<Choice<LightKind>, 2> LightKindChoices = {
     {{"lamp", LightKind::Lamp}, {"sun", LightKind::Sun}}};
 
+constexpr std::array<Choice<Brush>, 3> BrushChoices = {
+    {{"bump", Brush::Bump}, {"dent", Brush::Dent}, {"turn", Brush::Turn}}};
+
 constexpr std::array<Choice<BodyChoice>, 4> BodyChoiceChoices = {{{"auto", BodyChoice::Auto},
                                                                   {"own", BodyChoice::Own},
                                                                   {"below", BodyChoice::Below},
@@ -125,10 +128,30 @@ template <class Fields> void describe(Fields& fields, LayerBody& value)
     fields.rest(value.extra);
 }
 
+template <class Fields> void describe(Fields& fields, DepthStroke& value)
+{
+    fields.integer("frame", value.frame, 0, 999999);
+    fields.list("points", value.points, 24, Need::Optional);
+    fields.choice("brush", value.brush, BrushChoices, Need::Optional);
+    fields.real("radius", value.radius, 1, 100000, Need::Optional);
+    fields.real("amount", value.amount, 0, 1, Need::Optional);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, DepthColour& value)
+{
+    text(fields, "colour", value.colour, 0, 7, patterns().colour);
+    fields.real("volume", value.volume, 0, 4, Need::Optional);
+    fields.real("nearer", value.nearer, -1, 1, Need::Optional);
+    fields.rest(value.extra);
+}
+
 template <class Fields> void describe(Fields& fields, Depth& value)
 {
     fields.list("hints", value.hints, 128, Need::Optional);
     fields.list("layers", value.layers, 64, Need::Optional);
+    fields.list("strokes", value.strokes, 128, Need::Optional);
+    fields.list("colours", value.colours, 256, Need::Optional);
     fields.rest(value.extra);
 }
 

@@ -63,9 +63,21 @@ bool operator==(const LayerBody& a, const LayerBody& b)
     return std::tie(a.layer, a.body, a.extra) == std::tie(b.layer, b.body, b.extra);
 }
 
+bool operator==(const DepthStroke& a, const DepthStroke& b)
+{
+    return std::tie(a.frame, a.points, a.brush, a.radius, a.amount, a.extra) ==
+           std::tie(b.frame, b.points, b.brush, b.radius, b.amount, b.extra);
+}
+
+bool operator==(const DepthColour& a, const DepthColour& b)
+{
+    return std::tie(a.colour, a.volume, a.nearer, a.extra) == std::tie(b.colour, b.volume, b.nearer, b.extra);
+}
+
 bool operator==(const Depth& a, const Depth& b)
 {
-    return std::tie(a.hints, a.layers, a.extra) == std::tie(b.hints, b.layers, b.extra);
+    return std::tie(a.hints, a.layers, a.strokes, a.colours, a.extra) ==
+           std::tie(b.hints, b.layers, b.strokes, b.colours, b.extra);
 }
 
 bool operator==(const Scene& a, const Scene& b)

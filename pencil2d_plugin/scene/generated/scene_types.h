@@ -42,6 +42,13 @@ enum class LightKind
     Sun
 };
 
+enum class Brush
+{
+    Bump,
+    Dent,
+    Turn
+};
+
 enum class BodyChoice
 {
     Auto,
@@ -174,11 +181,40 @@ struct LayerBody
     QJsonObject extra = {};
 };
 
+/// A stroke of a brush that corrects the surface.
+///
+/// A bump is a smooth hump along the stroke, a dent a hollow. A turn makes the surface face the way the
+/// stroke goes. Frames before and after `frame` have it too: it is carried along with the drawing.
+struct DepthStroke
+{
+    int frame = 0;                   ///< frame of the animation, 0 to 999999
+    QVector<DepthPoint> points = {}; ///< 24 at most
+    Brush brush = Brush::Bump;
+    double radius = 40;  ///< canvas pixels, 1 to 100000
+    double amount = 0.4; ///< height of a bump or a dent as a share of its radius; of a turn, the share of a
+                         ///< right angle by which the surface then leans, 0 to 1
+    QJsonObject extra = {};
+};
+
+/// A correction of the surface of a flat colour, in all frames.
+///
+/// `volume` multiplies how far the colour stands out from what is around it: 0 is flat, above 1 is rounder.
+/// `nearer` moves it towards the viewer, or away if it is below 0.
+struct DepthColour
+{
+    QColor colour = {}; ///< sRGB, lower case #rrggbb
+    double volume = 1;  ///< 0 to 4
+    double nearer = 0;  ///< share of the longer side of the character's box, -1 to 1
+    QJsonObject extra = {};
+};
+
 /// What the artist says of the depth of drawings.
 struct Depth
 {
-    QVector<DepthHint> hints = {};  ///< 128 at most
-    QVector<LayerBody> layers = {}; ///< 64 at most
+    QVector<DepthHint> hints = {};     ///< 128 at most
+    QVector<LayerBody> layers = {};    ///< 64 at most
+    QVector<DepthStroke> strokes = {}; ///< 128 at most
+    QVector<DepthColour> colours = {}; ///< 256 at most
     QJsonObject extra = {};
 };
 
@@ -223,6 +259,8 @@ bool operator==(const Floor& a, const Floor& b);
 bool operator==(const DepthPoint& a, const DepthPoint& b);
 bool operator==(const DepthHint& a, const DepthHint& b);
 bool operator==(const LayerBody& a, const LayerBody& b);
+bool operator==(const DepthStroke& a, const DepthStroke& b);
+bool operator==(const DepthColour& a, const DepthColour& b);
 bool operator==(const Depth& a, const Depth& b);
 bool operator==(const Scene& a, const Scene& b);
 bool operator==(const Rig& a, const Rig& b);

@@ -9,7 +9,7 @@ from ..drawing import Drawing
 from ..errors import LampblackError
 from ..hints import HintedDrawing, carry_hints, hint_frames
 from ..normals.temporal.temporal_filter import TemporalFilter
-from ..scene import DepthHint, Scene
+from ..scene import Hint, Scene
 from ..shot import Shot, ShotFrame
 from .neighbours import NeighbourLoader
 
@@ -34,11 +34,12 @@ class HintLoader:
         for number, frame in self._numbers.items():
             self._first[frame.drawing] = min(number, self._first.get(frame.drawing, number))
 
-    def hints(self, frame: ShotFrame, drawing: Drawing, scene: Scene) -> tuple[DepthHint, ...]:
+    def hints(self, frame: ShotFrame, drawing: Drawing, scene: Scene) -> tuple[Hint, ...]:
         """The hints for ``frame``, in pixels of ``drawing``; ``scene`` is on the canvas."""
-        if not scene.depth.hints:
-            return ()
-        return carry_hints(self._hinted(frame, drawing, scene), drawing, self._temporal_filter)
+        if not scene.depth.drawn:
+            return scene.depth.colours
+        hinted = self._hinted(frame, drawing, scene)
+        return *carry_hints(hinted, drawing, self._temporal_filter), *scene.depth.colours
 
     def names(self, frame: ShotFrame, scene: Scene) -> tuple[str, ...]:
         """The drawings on which these hints were made."""
@@ -58,5 +59,5 @@ class HintLoader:
                 placed = self.shot.place(source, scene, made_on.size)
             except LampblackError:
                 continue
-            hints = tuple(hint for hint in placed.depth.hints if hint.frame == number)
+            hints = tuple(hint for hint in placed.depth.drawn if hint.frame == number)
             yield HintedDrawing(made_on, hints)

@@ -9,7 +9,7 @@ from ..errors import LampblackError
 from ..normals.temporal.temporal_filter import LazyNeighbours
 from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
-from ..scene import Canvas, DepthHint, Scene
+from ..scene import Canvas, Hint, Scene
 from ..shot import ShotFrame
 from ..timeline import scene_at
 from .hint_loader import HintLoader
@@ -25,7 +25,7 @@ class OneFrame:
     drawing: Drawing
     scene: Scene
     neighbours: LazyNeighbours | None
-    hints: tuple[DepthHint, ...]
+    hints: tuple[Hint, ...]
 
     def prepare(self, pipeline: Pipeline) -> PreparedDrawing:
         """Prepare it in full detail."""

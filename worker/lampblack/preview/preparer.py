@@ -112,7 +112,8 @@ class Preparer:
 
         drawing = self._decomposed[1]
         give_way(0)
-        hints = carry_hints(self._hinted(shape, drawing), drawing, self._temporal_filter)
+        carried = carry_hints(self._hinted(shape, drawing), drawing, self._temporal_filter)
+        hints = *carried, *shape.colours
         prepared = self.pipeline.prepare(
             drawing, hints=hints, digest=shape.key, progress=give_way, with_normals=True
         ).compact()

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ..cache import digest as digest_of
-from ..scene import DepthHint, LayerBody
+from ..scene import DepthColour, Drawn, LayerBody
 
 
 @dataclass(frozen=True, eq=False)
 class HintSource:
-    """The hints that were made on the drawing ``digest``, in its own pixels."""
+    """The hints and strokes that were made on the drawing ``digest``, in its own pixels."""
 
     digest: str
-    hints: tuple[DepthHint, ...]
+    hints: tuple[Drawn, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,21 +24,23 @@ class DrawingShape:
     Attributes:
         digest: of the drawing.
         layers: what the artist says of its layers.
+        colours: what the artist says of its colours.
         sources: drawings with hints that count here, the nearest in time first.
     """
 
     digest: str
     layers: tuple[LayerBody, ...] = ()
+    colours: tuple[DepthColour, ...] = ()
     sources: tuple[HintSource, ...] = ()
 
     @cached_property
     def key(self) -> str:
         """Names the shape: the digest alone if the artist says nothing."""
-        if not self.layers and not self.sources:
+        if not self.layers and not self.colours and not self.sources:
             return self.digest
         said = [(layer.layer, layer.body) for layer in self.layers]
         hinted = [(source.digest, source.hints) for source in self.sources]
-        return f"{self.digest} {digest_of(repr(said), repr(hinted))}"
+        return f"{self.digest} {digest_of(repr(said), repr(self.colours), repr(hinted))}"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, DrawingShape) and self.key == other.key

@@ -5,7 +5,18 @@ corner, z towards the viewer, the paper at z = 0. Colours are ``#rrggbb`` in sRG
 goes to JSON and back; fields this version does not know are kept and written out again.
 """
 
-from .depth import MAX_HINT_POINTS, MAX_HINTS, Depth, DepthHint, DepthPoint, LayerBody
+from .depth import (
+    MAX_HINT_POINTS,
+    MAX_HINTS,
+    Depth,
+    DepthColour,
+    DepthHint,
+    DepthPoint,
+    DepthStroke,
+    Drawn,
+    Hint,
+    LayerBody,
+)
 from .document import (
     MAX_JSON_BYTES,
     decode_depth,
@@ -35,10 +46,14 @@ __all__ = [
     "Canvas",
     "Colour",
     "Depth",
+    "DepthColour",
     "DepthHint",
     "DepthPoint",
+    "DepthStroke",
+    "Drawn",
     "Floor",
     "FloorKey",
+    "Hint",
     "LayerBody",
     "LightKey",
     "Material",

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated
 
 from msgspec import Meta
 
-from ..choices import BodyChoice, FrontSide
-from .values import Extra, KeyFrame, Pixels
+from ..choices import BodyChoice, Brush, FrontSide
+from .values import Colour, Extra, KeyFrame, Pixels
 
 MAX_HINTS, MAX_HINT_POINTS = 128, 16
+MAX_STROKES, MAX_STROKE_POINTS = 128, 24
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,67 @@ class DepthHint:
     ] = 0.0
     extra: Extra = field(default_factory=dict)
 
+    def placed(
+        self, points: tuple[DepthPoint, ...], scale: float = 1, *, mirrored: bool = False
+    ) -> DepthHint:
+        """The hint at ``points`` of another picture, which is ``scale`` times as large."""
+        front = self.front
+        if mirrored and front != "joined":
+            front = "right" if front == "left" else "left"
+        return replace(self, points=points, front=front)
+
+
+@dataclass(frozen=True)
+class DepthStroke:
+    """A stroke of a brush that corrects the surface.
+
+    A bump is a smooth hump along the stroke, a dent a hollow. A turn makes the surface face the way
+    the stroke goes. Frames before and after ``frame`` have it too: it is carried along with the
+    drawing.
+    """
+
+    frame: KeyFrame
+    points: Annotated[tuple[DepthPoint, ...], Meta(max_length=MAX_STROKE_POINTS)] = ()
+    brush: Brush = "bump"
+    radius: Annotated[float, Meta(ge=1, le=1e5, description="canvas pixels")] = 40.0
+    amount: Annotated[
+        float,
+        Meta(
+            ge=0,
+            le=1,
+            description="height of a bump or a dent as a share of its radius; of a turn, the share "
+            "of a right angle by which the surface then leans",
+        ),
+    ] = 0.4
+    extra: Extra = field(default_factory=dict)
+
+    def placed(
+        self, points: tuple[DepthPoint, ...], scale: float = 1, *, mirrored: bool = False
+    ) -> DepthStroke:
+        """The stroke at ``points`` of another picture, which is ``scale`` times as large."""
+        return replace(self, points=points, radius=self.radius * scale)
+
+
+@dataclass(frozen=True)
+class DepthColour:
+    """A correction of the surface of a flat colour, in all frames.
+
+    ``volume`` multiplies how far the colour stands out from what is around it: 0 is flat, above 1
+    is rounder. ``nearer`` moves it towards the viewer, or away if it is below 0.
+    """
+
+    colour: Colour
+    volume: Annotated[float, Meta(ge=0, le=4)] = 1.0
+    nearer: Annotated[
+        float, Meta(ge=-1, le=1, description="share of the longer side of the character's box")
+    ] = 0.0
+    extra: Extra = field(default_factory=dict)
+
+
+Drawn = DepthHint | DepthStroke
+"""What is said along a stroke, on one drawing."""
+Hint = Drawn | DepthColour
+
 
 @dataclass(frozen=True)
 class LayerBody:
@@ -55,4 +117,11 @@ class Depth:
 
     hints: Annotated[tuple[DepthHint, ...], Meta(max_length=MAX_HINTS)] = ()
     layers: Annotated[tuple[LayerBody, ...], Meta(max_length=64)] = ()
+    strokes: Annotated[tuple[DepthStroke, ...], Meta(max_length=MAX_STROKES)] = ()
+    colours: Annotated[tuple[DepthColour, ...], Meta(max_length=256)] = ()
     extra: Extra = field(default_factory=dict)
+
+    @property
+    def drawn(self) -> tuple[Drawn, ...]:
+        """What is said along strokes, each on the drawing of its frame."""
+        return *self.hints, *self.strokes

@@ -155,12 +155,12 @@ class Session:
                     self.frames[hinted].digest,
                     tuple(
                         hint_in_view(hint, self.frames[hinted].camera)
-                        for hint in depth.hints
+                        for hint in depth.drawn
                         if hint.frame == hinted
                     ),
                 )
                 for hinted in hint_frames(depth, first)
                 if hinted in self.frames
             )
-            self._shapes[digest] = DrawingShape(digest, depth.layers, sources)
+            self._shapes[digest] = DrawingShape(digest, depth.layers, depth.colours, sources)
         return self._shapes[digest]

@@ -1,5 +1,6 @@
 """Surfaces: normals are inflated to a height, and the height becomes a closed relief mesh."""
 
+from .corrections import Corrections, character_length, normals_of
 from .depth_picture import depth_picture, full_size
 from .export import save_mesh
 from .guided import guided_filter
@@ -12,17 +13,20 @@ from .visible import visible_faces
 
 __all__ = [
     "Base",
+    "Corrections",
     "Overlap",
     "Relief",
     "Sheet",
     "Solver",
     "build_relief",
+    "character_length",
     "check_relief",
     "depth_picture",
     "dividing_lines",
     "full_size",
     "guided_filter",
     "joined_reliefs",
+    "normals_of",
     "overlap_votes",
     "save_mesh",
     "solve",

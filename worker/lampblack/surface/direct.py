@@ -75,7 +75,7 @@ def inflate_direct(
             pull = ground * prior.depth[mask].astype(np.float64)
             rhs[:count] += pull
             rhs[count] = -pull.sum()
-        found = _conjugate_gradient(Graph(starts, ends, weights, inverse), rhs, tolerance)
+        found = solve_laplacian(Graph(starts, ends, weights, inverse), rhs, tolerance)
         height[mask] = found[:count]
     return height
 
@@ -152,7 +152,7 @@ def _link_pixels(
     return starts, ends[:used].copy(), weights[:used].copy(), inverse, rhs
 
 
-def _conjugate_gradient(
+def solve_laplacian(
     graph: Graph, rhs: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.float64]:
     """Solve ``Laplacian z = rhs`` by the flexible variant: a K-cycle is not quite linear."""

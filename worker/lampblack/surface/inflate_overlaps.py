@@ -17,6 +17,7 @@ from scipy import ndimage
 
 from ..normals.prediction import Prediction
 from ..scene import DepthHint, DepthPoint
+from .corrections import Corrections
 from .cuts import Cuts, Floats, across, jumps_across
 from .direct import Prior, inflate_direct
 from .hinted import apply_hints
@@ -71,6 +72,7 @@ def solve_with_overlaps(
     mask: NDArray[np.bool_],
     lines: NDArray[np.float32],
     hints: Sequence[DepthHint] = (),
+    corrections: Corrections | None = None,
 ) -> tuple[NDArray[np.float32], list[Overlap]]:
     """Inflate a prediction, with steps where parts overlap.
 
@@ -81,28 +83,32 @@ def solve_with_overlaps(
         hints: what the artist says, in pixels of (H, W), whatever their frames. Each wins over
             what was found where it is drawn: see ``apply_hints``. Of two that say something about
             one place, the last counts.
+        corrections: of the surface, which leave its steps where they are.
 
     Returns:
-        (H, W) float32 height as from ``solve``, and the overlaps along which it steps, the longest
-        first.
+        (H, W) float32 height as from ``solve``, corrected, and the overlaps along which it steps,
+        the longest first.
 
     Raises:
         ValueError: the shapes do not fit.
     """
     depth, edge = prediction.depth, prediction.edge
-    if not mask.any() or ((depth is None or edge is None) and not hints):
+    corrections = corrections or Corrections()
+    alone = (depth is None or edge is None) and not hints
+    if not mask.any() or (alone and not corrections):
         return solve(prediction.normals, mask), []
-    small = _small_of(prediction, mask, lines)
     normals = usable_normals(prediction.normals, mask)
     cuts, overlaps = Cuts.none(mask.shape), []
-    for occlusion, small_steps in _steps(small, hints):
+    small = _small_of(prediction, mask, lines)
+    for occlusion, small_steps in [] if alone else _steps(small, hints):
         points, steps = small.on_canvas(occlusion.points), small_steps * small.by
         if occlusion.front != "joined":
             cuts.add(points, across(points, occlusion.front), steps, mask)
         overlaps.append(Overlap(points, occlusion.front, float(steps.mean()), occlusion.hinted))
     overlaps.sort(key=lambda overlap: len(overlap.points), reverse=True)
+    normals = corrections.normals(normals, mask)
     height = inflate_direct(normals, mask, cuts if overlaps else None)
-    return rest_on_border(height, mask), overlaps
+    return corrections.height(rest_on_border(height, mask), mask, cuts), overlaps
 
 
 def overlap_votes(
