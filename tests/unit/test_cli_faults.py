@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from lampblack.drawing import load_picture, save_picture
-from lampblack.scene import default_scene, encode_scene
+from lampblack.scene import MAX_LIGHTS, default_scene, encode_scene
 from support.command_line import Run, files
 from support.drawings import draw_ball
 
@@ -214,11 +214,11 @@ def test_a_full_disk_keeps_what_is_finished(
     assert np.array_equal(load_picture(full_disk / "a.1.png"), draw_ball(64))
 
 
-def test_lights_past_the_fourth_are_refused(
+def test_lights_past_the_last_are_refused(
     run: Run, tmp_path: Path, ball_png: Path, unrendered: list[str]
 ) -> None:
-    five = [part for _ in range(5) for part in ("--light", "1,2,3")]
-    assert run("render", ball_png, "-o", tmp_path / "lit", *five).code == 1
+    many = [part for _ in range(MAX_LIGHTS + 1) for part in ("--light", "1,2,3")]
+    assert run("render", ball_png, "-o", tmp_path / "lit", *many).code == 1
     scene = tmp_path / "scene.json"
     scene.write_bytes(encode_scene(default_scene(160, 160)))
     assert run("render", ball_png, "-o", tmp_path / "lit", "--scene", scene).code == 0

@@ -58,7 +58,7 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
     band = Band(columns, rows, 0, rows)
     cover = drawing.coverage[..., None]
     sources = weigh(passes, scene)
-    illumination = Illumination.sum_of(sources)
+    illumination = Illumination.sum_of(sources, passes.ambient)
     diffuse, glossy, unlit = character_light(drawing, scene, illumination, band)
     colour = {
         "diffuse": cover * diffuse,
@@ -74,7 +74,7 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
     for name, source in zip(present, (*passes.lights, passes.ambient), strict=True):
         own = [(weight, light) for weight, light in sources if light is source]
         if own:
-            light = character_light(drawing, scene, Illumination.sum_of(own), band)
+            light = character_light(drawing, scene, Illumination.sum_of(own, passes.ambient), band)
             colour[name] = cover * sum(light[:2])
     line = drawing.ink[..., None] * cover
     ratio = illumination.floor_ratio
