@@ -135,6 +135,6 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.setattr("lampblack.prepared.PreparedDrawing.surface", lambda *given: None)
     monkeypatch.setattr(Pipeline, "light", light)
     monkeypatch.setattr(
-        "lampblack.finals.frame_files.composite", lambda drawing, passes, scene: drawing.pixels
+        "lampblack.finals.frame_files.composite", lambda drawing, *given, **named: drawing.pixels
     )
     return rendered

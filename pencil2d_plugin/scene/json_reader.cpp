@@ -75,6 +75,30 @@ void JsonReader::texts(const char* name, QStringList& values, int most, int long
     }
 }
 
+void JsonReader::reals(const char* name, QVector<double>& values, int most, double low, double high,
+                       Need need)
+{
+    if (!wanted(name, need))
+    {
+        return;
+    }
+    const QJsonArray array = at(name).toArray();
+    if (!at(name).isArray() || array.size() > most)
+    {
+        refuse(name, "not a list, or too long");
+        return;
+    }
+    values.clear();
+    for (const QJsonValue& item : array)
+    {
+        values.append(item.toDouble());
+        if (!item.isDouble() || values.last() < low || values.last() > high)
+        {
+            refuse(name, "not numbers in their range");
+        }
+    }
+}
+
 void JsonReader::rest(QJsonObject& extra)
 {
     extra = mTree;

@@ -113,6 +113,9 @@ public:
         }
     }
 
+    void reals(const char* name, QVector<double>& values, int most, double low, double high,
+               Need need = Need::Required);
+
     template <class T> void object(const char* name, T& value, Need need = Need::Required)
     {
         if (wanted(name, need))

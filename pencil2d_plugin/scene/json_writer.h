@@ -63,6 +63,16 @@ public:
         put(name, array);
     }
 
+    template <class... Rule> void reals(const char* name, QVector<double>& values, const Rule&...)
+    {
+        QJsonArray array;
+        for (const double value : values)
+        {
+            array.append(value);
+        }
+        put(name, array);
+    }
+
     template <class T, class... Rule> void object(const char* name, T& value, const Rule&...)
     {
         put(name, write(value));

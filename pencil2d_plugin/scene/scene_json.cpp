@@ -24,6 +24,16 @@ public:
         value = qBound(low, std::isnan(value) ? 0 : value, high);
     }
 
+    void reals(const char* name, QVector<double>& values, int most, double low, double high,
+               Need need = Need::Required)
+    {
+        values.resize(qMin(most, values.size()));
+        for (double& value : values)
+        {
+            real(name, value, low, high, need);
+        }
+    }
+
     void boolean(const char* /*name*/, bool& /*value*/, Need /*need*/) {}
     template <class... Rule> void text(const char* /*name*/, QString& /*value*/, const Rule&... /*rule*/) {}
     template <class Enum, class... Rule>

@@ -54,7 +54,10 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
         hints=tuple(hint_in_view(hint, camera) for hint in scene.depth.hints),
         strokes=tuple(hint_in_view(stroke, camera) for stroke in scene.depth.strokes),
     )
-    return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth)
+    rim = scene.rim
+    if rim is not None:
+        rim = replace(rim, width=min(1000.0, max(0.25, rim.width * scale)))
+    return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth, rim=rim)
 
 
 def on_canvas(scene: Scene, canvas: Canvas) -> Scene:

@@ -34,6 +34,9 @@ BodyChoice = Literal["auto", "own", "below", "flat"]
 """The surface of a layer: found by itself, a body of its own, a part of the body below, or flat
 on it."""
 
+LookChoice = Literal["scene", "smooth", "cel"]
+"""How a flat colour is lit: as the scene is, in smooth gradients, or in tones."""
+
 DEFAULT_GRIDS = 0
 """Grids of tiles whose predicted normals are averaged; 0 predicts the whole character at once."""
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .affects import Affects, traced_part
-from .scene import Scene
+from .scene import Material, Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +21,7 @@ class MaterialTable:
         diffuse, glossy: (n + 1,) bool.
         gloss: (n + 1,) float32 in 0..1, amount of the glossy lobe; 0 where not glossy.
         roughness: (n + 1,) float32 in 0.02..1.
+        cel: (n + 1,) bool, lit in tones.
         key: all that affects traced light, except the amounts of gloss.
         amounts: ``gloss`` as a comparable value.
     """
@@ -29,6 +30,7 @@ class MaterialTable:
     glossy: NDArray[np.bool_]
     gloss: NDArray[np.float32]
     roughness: NDArray[np.float32]
+    cel: NDArray[np.bool_]
     key: Hashable
     amounts: tuple[float, ...]
 
@@ -42,9 +44,18 @@ class MaterialTable:
             glossy=np.array([m.glossy for m in materials], np.bool_),
             gloss=np.array(amounts, np.float32),
             roughness=np.array([m.roughness for m in materials], np.float32),
+            cel=np.array([_in_tones(m, scene) for m in materials], np.bool_),
             key=tuple(
                 (amount > 0, traced_part(material, Affects.GLOSS))
                 for amount, material in zip(amounts, materials, strict=True)
             ),
             amounts=amounts,
         )
+
+    def smooth(self) -> MaterialTable:
+        """The same materials, none of them in tones."""
+        return replace(self, cel=np.zeros_like(self.cel))
+
+
+def _in_tones(material: Material, scene: Scene) -> bool:
+    return material.look == "cel" or (material.look == "scene" and bool(scene.look.tones))

@@ -444,7 +444,8 @@ class Pipeline:
         prepared = self.prepare(
             drawing, neighbours, hints=(*scene.depth.drawn, *scene.depth.colours)
         )
-        return composite(drawing, self.light(prepared, scene), scene)
+        passes = self.light(prepared, scene)
+        return composite(drawing, passes, scene, edges=prepared.edges_for(scene))
 
 
 def surface_step(drawing: Drawing) -> int:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .composite.byte_layers import ByteLayers, byte_layers_of
+from .composite.edges import edge_distance
 from .composite.resample import Box
 from .drawing import Drawing, Palette
 from .render import Surface, assign_materials, vertex_pixels
@@ -61,6 +63,23 @@ class PreparedDrawing:
         normals = 0 if self.normals is None else self.normals.nbytes
         parts = sum(body.drawing.nbytes for body in self.bodies)
         return self.layers.nbytes + self.height.nbytes + self.mask.nbytes + normals + parts
+
+    @cached_property
+    def edges(self) -> NDArray[np.uint8]:
+        """What a rim of light follows, at the size of ``layers``; see ``edge_distance``."""
+        labels, ink = self.layers.labels, self.layers.ink.astype(np.float32)
+        if isinstance(self.layers, ByteLayers):
+            ink /= 255
+        places = (
+            np.minimum(((np.arange(side) + 0.5) * self.step / self.scale).astype(np.intp), most - 1)
+            for side, most in zip(labels.shape, self.height.shape, strict=True)
+        )
+        height = self.height[np.ix_(*places)] / np.float32(self.step)
+        return edge_distance(labels >= 0, ink, height)
+
+    def edges_for(self, scene: Scene) -> NDArray[np.uint8] | None:
+        """``edges`` if ``scene`` has a rim."""
+        return None if scene.rim is None else self.edges
 
     @property
     def palette(self) -> Palette:

@@ -27,6 +27,9 @@ constexpr std::array<Choice<BodyChoice>, 4> BodyChoiceChoices = {{{"auto", BodyC
                                                                   {"below", BodyChoice::Below},
                                                                   {"flat", BodyChoice::Flat}}};
 
+constexpr std::array<Choice<LookChoice>, 3> LookChoiceChoices = {
+    {{"scene", LookChoice::Scene}, {"smooth", LookChoice::Smooth}, {"cel", LookChoice::Cel}}};
+
 struct Patterns
 {
     QRegularExpression colour{QStringLiteral(R"(^#[0-9a-f]{6}$(?!\n))")};
@@ -86,6 +89,7 @@ template <class Fields> void describe(Fields& fields, Material& value)
     fields.boolean("glossy", value.glossy, Need::Optional);
     fields.real("gloss", value.gloss, 0, 1, Need::Optional);
     fields.real("roughness", value.roughness, 0.02, 1, Need::Optional);
+    fields.choice("look", value.look, LookChoiceChoices, Need::Optional);
     fields.rest(value.extra);
 }
 
@@ -102,6 +106,28 @@ template <class Fields> void describe(Fields& fields, Floor& value)
     fields.real("y", value.y, -100000, 100000);
     fields.real("pitch", value.pitch, 5, 85, Need::Optional);
     fields.listIfAny("keys", value.keys, 128);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, Look& value)
+{
+    fields.reals("tones", value.tones, 3, 0, 1, Need::Optional);
+    fields.real("softness", value.softness, 0, 1, Need::Optional);
+    text(fields, "shade_colour", value.shadeColour, 0, 7, patterns().colour, Need::Optional);
+    fields.real("shade_strength", value.shadeStrength, 0, 1, Need::Optional);
+    fields.real("highlight", value.highlight, 0, 1, Need::Optional);
+    fields.real("contact", value.contact, 0, 1, Need::Optional);
+    fields.real("ink_light", value.inkLight, 0, 1, Need::Optional);
+    fields.real("glow", value.glow, 0, 1, Need::Optional);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, Rim& value)
+{
+    fields.real("width", value.width, 0.25, 1000, Need::Optional);
+    text(fields, "colour", value.colour, 0, 7, patterns().colour, Need::Optional);
+    fields.real("strength", value.strength, 0, 1, Need::Optional);
+    fields.real("away", value.away, 0, 1, Need::Optional);
     fields.rest(value.extra);
 }
 
@@ -163,6 +189,8 @@ template <class Fields> void describe(Fields& fields, Scene& value)
     fields.map("materials", value.materials, 4096, patterns().colour, Need::Optional);
     fields.object("default_material", value.defaultMaterial, Need::Optional);
     fields.object("floor", value.floor);
+    fields.object("look", value.look, Need::Optional);
+    fields.object("rim", value.rim);
     fields.real("relief_scale", value.reliefScale, 0.01, 10, Need::Optional);
     fields.object("depth", value.depth, Need::Optional);
     fields.choice("quality", value.quality, QualityChoices, Need::Optional);

@@ -33,8 +33,8 @@ bool operator==(const Ambient& a, const Ambient& b)
 
 bool operator==(const Material& a, const Material& b)
 {
-    return std::tie(a.diffuse, a.glossy, a.gloss, a.roughness, a.extra) ==
-           std::tie(b.diffuse, b.glossy, b.gloss, b.roughness, b.extra);
+    return std::tie(a.diffuse, a.glossy, a.gloss, a.roughness, a.look, a.extra) ==
+           std::tie(b.diffuse, b.glossy, b.gloss, b.roughness, b.look, b.extra);
 }
 
 bool operator==(const FloorKey& a, const FloorKey& b)
@@ -45,6 +45,19 @@ bool operator==(const FloorKey& a, const FloorKey& b)
 bool operator==(const Floor& a, const Floor& b)
 {
     return std::tie(a.y, a.pitch, a.keys, a.extra) == std::tie(b.y, b.pitch, b.keys, b.extra);
+}
+
+bool operator==(const Look& a, const Look& b)
+{
+    return std::tie(a.tones, a.softness, a.shadeColour, a.shadeStrength, a.highlight, a.contact, a.inkLight,
+                    a.glow, a.extra) == std::tie(b.tones, b.softness, b.shadeColour, b.shadeStrength,
+                                                 b.highlight, b.contact, b.inkLight, b.glow, b.extra);
+}
+
+bool operator==(const Rim& a, const Rim& b)
+{
+    return std::tie(a.width, a.colour, a.strength, a.away, a.extra) ==
+           std::tie(b.width, b.colour, b.strength, b.away, b.extra);
 }
 
 bool operator==(const DepthPoint& a, const DepthPoint& b)
@@ -82,10 +95,10 @@ bool operator==(const Depth& a, const Depth& b)
 
 bool operator==(const Scene& a, const Scene& b)
 {
-    return std::tie(a.canvas, a.lights, a.ambient, a.materials, a.defaultMaterial, a.floor, a.reliefScale,
-                    a.depth, a.quality, a.version,
-                    a.extra) == std::tie(b.canvas, b.lights, b.ambient, b.materials, b.defaultMaterial,
-                                         b.floor, b.reliefScale, b.depth, b.quality, b.version, b.extra);
+    return std::tie(a.canvas, a.lights, a.ambient, a.materials, a.defaultMaterial, a.floor, a.look, a.rim,
+                    a.reliefScale, a.depth, a.quality, a.version, a.extra) ==
+           std::tie(b.canvas, b.lights, b.ambient, b.materials, b.defaultMaterial, b.floor, b.look, b.rim,
+                    b.reliefScale, b.depth, b.quality, b.version, b.extra);
 }
 
 bool operator==(const Rig& a, const Rig& b)

@@ -57,6 +57,13 @@ enum class BodyChoice
     Flat
 };
 
+enum class LookChoice
+{
+    Scene,
+    Smooth,
+    Cel
+};
+
 /// Size of the drawings this scene was made for, in pixels.
 struct Canvas
 {
@@ -120,13 +127,15 @@ struct Ambient
 /// What a flat colour is made of: diffuse, glossy, both, or neither (left as drawn).
 ///
 /// `gloss` is the amount of the glossy lobe, `roughness` its width (the paper's glossy exponent, the other
-/// way round: 0 is a mirror, 1 is satin).
+/// way round: 0 is a mirror, 1 is satin). `look` is that of the scene, or the colour's own: smooth, or in
+/// tones.
 struct Material
 {
     bool diffuse = true;
     bool glossy = false;
     double gloss = 0.5;     ///< 0 to 1
     double roughness = 0.3; ///< 0.02 to 1
+    LookChoice look = LookChoice::Scene;
     QJsonObject extra = {};
 };
 
@@ -148,6 +157,43 @@ struct Floor
     double y = 0;                ///< canvas pixels, -100000 to 100000
     double pitch = 25;           ///< degrees, 5 to 85
     QVector<FloorKey> keys = {}; ///< 128 at most
+    QJsonObject extra = {};
+};
+
+/// How light is shown: in smooth gradients, or in flat tones as in cel animation.
+///
+/// `tones` are thresholds between two tones each, as shares of the full light, the way the eye sees them: 0
+/// is no light, 1 a surface that faces the strongest light. Without any the light is smooth. `softness` is
+/// the width of the blend at a threshold; 0 is hard. `shade_strength` is how far the shade has the drawn
+/// colour times `shade_colour` in place of its own light. `highlight` is the threshold of the highlights of
+/// glossy paint, where there are tones.
+///
+/// `contact` darkens where surfaces touch. With `ink_light` the line takes light: it is darker in shade, and
+/// tinted by the lit fill. `glow` is the bloom around emissive colours.
+struct Look
+{
+    QVector<double> tones = {};            ///< 0 to 1
+    double softness = 0.05;                ///< 0 to 1
+    QColor shadeColour = QColor(0x4a4468); ///< sRGB, lower case #rrggbb
+    double shadeStrength = 0;              ///< 0 to 1
+    double highlight = 0.5;                ///< 0 to 1
+    double contact = 0;                    ///< 0 to 1
+    double inkLight = 0;                   ///< 0 to 1
+    double glow = 0;                       ///< 0 to 1
+    QJsonObject extra = {};
+};
+
+/// A band of light inside the character's silhouette, and along the edge of each part that is in front of
+/// another.
+///
+/// `width` is that of the band. It begins at the inner edge of the outline. `away` is how far the band is
+/// left out on the side that faces the strongest light: 0 is all around.
+struct Rim
+{
+    double width = 8;                 ///< canvas pixels, 0.25 to 1000
+    QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
+    double strength = 0.8;            ///< 0 to 1
+    double away = 0.5;                ///< 0 to 1
     QJsonObject extra = {};
 };
 
@@ -228,6 +274,8 @@ struct Scene
     QMap<QString, Material> materials = {};
     Material defaultMaterial = {};
     std::optional<Floor> floor = {};
+    Look look = {};
+    std::optional<Rim> rim = {};
     double reliefScale = 1; ///< 0.01 to 10
     Depth depth = {};
     Quality quality = Quality::Low;
@@ -256,6 +304,8 @@ bool operator==(const Ambient& a, const Ambient& b);
 bool operator==(const Material& a, const Material& b);
 bool operator==(const FloorKey& a, const FloorKey& b);
 bool operator==(const Floor& a, const Floor& b);
+bool operator==(const Look& a, const Look& b);
+bool operator==(const Rim& a, const Rim& b);
 bool operator==(const DepthPoint& a, const DepthPoint& b);
 bool operator==(const DepthHint& a, const DepthHint& b);
 bool operator==(const LayerBody& a, const LayerBody& b);

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..drawing.drawing import Drawing
 from ..render.passes import Passes
-from ..scene import Scene
+from ..scene import Material, Scene
 from .blend import SPLITS, Blend, Picture, without_colour
 from .float_kernel import composite_float, composite_unrounded
 from .illumination import Illumination
@@ -19,6 +19,7 @@ from .illumination import Illumination
 Stage = NDArray[Any]
 """(H, W, 4) sRGB with straight alpha, uint8 or float32 in 0 to 1."""
 Floats = NDArray[np.float32]
+Edges = NDArray[np.uint8]
 Layer = tuple[str, Blend, Picture]
 """Name, blend mode, and (H, W, 4) uint8 sRGB with straight alpha."""
 
@@ -35,7 +36,14 @@ def _without_gloss(scene: Scene) -> Scene:
     return replace(scene, materials=materials, default_material=default)
 
 
-TERMS: tuple[tuple[str, Callable[[Scene], Scene]], ...] = (("highlight", _without_gloss),)
+def _without_rim(scene: Scene) -> Scene:
+    return scene if scene.rim is None else replace(scene, rim=None)
+
+
+TERMS: tuple[tuple[str, Callable[[Scene], Scene]], ...] = (
+    ("highlight", _without_gloss),
+    ("rim", _without_rim),
+)
 """Terms that add light, lowest first: the name of each, and the scene without it."""
 
 LAYERS: tuple[tuple[str, Blend], ...] = (
@@ -77,22 +85,28 @@ class Stages:
         )
 
 
-def byte_stages(drawing: Drawing, passes: Passes, scene: Scene) -> Stages:
-    """The stages of a lit drawing in bytes. The last is what ``composite`` returns."""
-    return _stages(drawing, passes, scene, composite_float, drawing.pixels)
+def byte_stages(
+    drawing: Drawing, passes: Passes, scene: Scene, edges: Edges | None = None
+) -> Stages:
+    """The stages of a lit drawing in bytes. The last is what ``composite`` returns; ``edges`` are
+    as there."""
+    return _stages(drawing, passes, scene, edges, composite_float, drawing.pixels)
 
 
-def float_stages(drawing: Drawing, passes: Passes, scene: Scene) -> Stages:
+def float_stages(
+    drawing: Drawing, passes: Passes, scene: Scene, edges: Edges | None = None
+) -> Stages:
     """The same before rounding, in 0 to 1."""
     drawn = drawing.pixels.astype(np.float32) / 255
-    return _stages(drawing, passes, scene, composite_unrounded, drawn)
+    return _stages(drawing, passes, scene, edges, composite_unrounded, drawn)
 
 
 def _stages(
     drawing: Drawing,
     passes: Passes,
     scene: Scene,
-    composite: Callable[[Drawing, Illumination, Scene], Stage],
+    edges: Edges | None,
+    composite: Callable[[Drawing, Illumination, Scene, Edges | None], Stage],
     drawn: Stage,
 ) -> Stages:
     scenes = [scene]
@@ -101,13 +115,16 @@ def _stages(
     lit: list[Stage] = []
     for before, now in zip([None, *scenes], scenes, strict=False):
         same = before is not None and now is before
-        lit.append(lit[-1] if same else composite(drawing, Illumination.of(passes, now), now))
+        light = Illumination.of(passes, now)
+        lit.append(lit[-1] if same else composite(drawing, light, now, edges))
     floor = drawn
     if scene.floor is not None:
-        plain = Scene(scene.canvas)
+        plain = replace(
+            scene, materials={}, default_material=Material(diffuse=False), rim=None, floor=None
+        )
         shadow = Illumination([_UNIT], floor=Illumination.of(passes, scene).floor)
-        bare = composite(drawing, Illumination([_UNIT]), plain)
-        cast = composite(drawing, shadow, replace(plain, floor=scene.floor))
+        bare = composite(drawing, Illumination([_UNIT]), plain, None)
+        cast = composite(drawing, shadow, replace(plain, floor=scene.floor), None)
         apart = abs(cast.astype(np.float32) - bare)
         level = 0 if cast.dtype == np.uint8 else _NOISE
         floor = np.where((apart > level).any(axis=2, keepdims=True), cast, drawn)

@@ -8,22 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..colour import linear, srgb
 from ..compiled import compiled
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
 from ..scene import Scene, default_scene
 from .borders import swatch_albedos
 from .byte_layers import ByteLayers
-from .float_kernel import DARK_INK, KNEE, PALE_INK, PALING, ROUNDING
+from .float_kernel import ROUNDING
 from .illumination import Illumination
+from .line import OWN_COLOUR
 from .resample import Box
+from .rim import PLAIN_RIM, RimLight, rim_share
+from .roll_off import KNEE, PALING
+from .samples import LINEAR, SRGB, encode, level, paleness_of, sample
+from .shading import Shading
+from .tones import Tones, step_share
 
 Floats = NDArray[np.float32]
 
-STEPS = 4096
-_LINEAR = linear(np.arange(256) / 255)
-_SRGB = srgb(np.arange(STEPS + 2) / STEPS)
+_DIFFUSE, _GLOSSY, _BOTH, _CEL = np.uint8(1), np.uint8(2), np.uint8(3), np.uint8(4)
 _UNIT = np.ones((1, 1, 3), np.float32)
 _UNSHADED = np.ones((1, 1), np.bool_)
 
@@ -38,23 +41,54 @@ def composite_bytes(
         crop: the part of the drawing that they show, in its pixels.
     """
     materials = MaterialTable.of(scene, layers.palette.colours)
-    kinds = materials.diffuse.astype(np.uint8) + 2 * materials.glossy.astype(np.uint8)
+    kinds = materials.diffuse * _DIFFUSE + materials.glossy * _GLOSSY
+    kinds += np.where(kinds > 0, materials.cel * _CEL, np.uint8(0))
     height, width = layers.ink.shape
+    area = illumination.character_area or crop
+    pixel = max(crop[2] / width, crop[3] / height)
+    shading = Shading.of(illumination, scene, materials, pixel, area)
     lit = np.empty((height, width, 4), np.uint8)
-    ratio = illumination.floor_ratio
+    ratio, contact = shading.floor_ratio, shading.contact
+    smooth = kinds & _CEL == 0
     _light(
         layers.pixels, layers.albedo, layers.ink, layers.ink_colour, layers.coverage,
         layers.labels, layers.others, layers.shares,
         swatch_albedos(layers.palette), kinds, materials.gloss,
-        illumination.diffuse, illumination.glossy if (kinds == 2).any() else _UNIT,
-        illumination.sheen if (kinds == 3).any() else _UNIT,
-        _steps(crop, layers.size, illumination.character_area or crop),
+        illumination.diffuse if (smooth & (kinds & _DIFFUSE > 0)).any() else _UNIT,
+        illumination.glossy if (smooth & (kinds & _BOTH == _GLOSSY)).any() else _UNIT,
+        illumination.sheen if (smooth & (kinds & _BOTH == _BOTH)).any() else _UNIT,
+        _steps(crop, layers.size, area), _tone_arguments(shading.tones),
+        contact is not None, _UNIT if contact is None else contact,
+        _rim_arguments(shading.rim, layers, crop), np.float32(shading.ink_light),
         _UNIT if ratio is None else ratio,
         _UNSHADED if ratio is None else _unshaded(ratio), ratio is not None,
         _steps(crop, layers.size, illumination.floor_area or crop),
-        _LINEAR, _SRGB, lit,
+        LINEAR, SRGB, lit,
     )  # fmt: skip
     return lit
+
+
+def _tone_arguments(tones: Tones | None) -> tuple[Any, ...]:
+    if tones is None:
+        none = np.zeros(1, np.float32)
+        return (
+            _UNIT[..., 0], _UNIT[..., 0], _UNIT, _UNIT[0, 0], none, none, none, none,
+            _UNIT[0, 0], np.float32(0),
+        )  # fmt: skip
+    return (
+        tones.amount, tones.shine, tones.lit, tones.shade, tones.lows, tones.highs,
+        tones.highlight[:1], tones.highlight[1:], tones.tint, tones.strength,
+    )  # fmt: skip
+
+
+def _rim_arguments(rim: RimLight | None, layers: ByteLayers, crop: Box) -> tuple[Any, ...]:
+    edges = layers.edges
+    if rim is None or edges is None:
+        return False, layers.ink, (0.0,) * 5, (0.0, 0.0, 1.0, 1.0), _UNIT[0, 0]
+    across, down = crop[2] / layers.size[0], crop[3] / layers.size[1]
+    sizes = layers.edge_unit, rim.width, max(across, down), rim.strength, rim.away
+    key = rim.key[0] - crop[0], rim.key[1] - crop[1], across, down
+    return True, edges, sizes, key, rim.colour
 
 
 def _unshaded(floor: Floats) -> NDArray[np.bool_]:
@@ -84,47 +118,23 @@ def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, f
 
 
 @compiled
-def _sample(picture: Any, u: float, v: float, channel: int) -> Any:
-    """Bilinear at (u, v) in 0..1, continued past the edges."""
-    height, width = picture.shape[0], picture.shape[1]
-    x = min(max(u * width - 0.5, 0.0), width - 1.0)
-    y = min(max(v * height - 0.5, 0.0), height - 1.0)
-    x0, y0 = int(x), int(y)
-    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
-    s, t = np.float32(x - x0), np.float32(y - y0)
-    above = picture[y0, x0, channel] + s * (picture[y0, x1, channel] - picture[y0, x0, channel])
-    below = picture[y1, x0, channel] + s * (picture[y1, x1, channel] - picture[y1, x0, channel])
-    return above + t * (below - above)
-
-
-@compiled
-def _encode(table: Any, value: Any) -> Any:
-    """sRGB of scene-linear ``value``, clipped to 0..1."""
-    at = min(max(value, np.float32(0)), np.float32(1)) * np.float32(STEPS)
-    index = int(at)
-    return table[index] + (at - index) * (table[index + 1] - table[index])
-
-
-@compiled
-def _paleness(colour: Any) -> Any:
-    """See ``float_kernel.paleness``."""
-    light = (0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2]) / 255
-    share = min(max((light - DARK_INK) / (PALE_INK - DARK_INK), 0.0), 1.0)
-    return np.float32(share * share * (3 - 2 * share))
-
-
-@compiled
 def _light(
     pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any,
     labels: Any, others: Any, shares: Any,
     swatches: Any, kinds: Any, gloss: Any,
     diffuse: Any, glossy: Any, sheen: Any, on_figure: Any,
+    tones: Any, has_contact: bool, contact: Any, rim_light: Any, ink_light: Any,
     floor: Any, unshaded: Any, has_floor: bool, on_ground: Any,
     to_linear: Any, to_srgb: Any, lit: Any,
 ) -> None:  # fmt: skip
+    amount, shine, toned, shade, lows, highs = tones[:6]
+    shine_lows, shine_highs, tint, tint_strength = tones[6:]
+    across_px, down_px = on_figure[0], on_figure[2]
+    has_rim, edges, rim, key, rim_colour = rim_light
     byte, one, zero = np.float32(1 / 255), np.float32(1), np.float32(0)
+    colourless, taken = np.float32(PLAIN_RIM), np.float32(OWN_COLOUR)
     fill, shown = np.zeros(3, np.float32), np.zeros(3, np.float32)
-    unlit = np.zeros(3, np.float32)
+    unlit, light, gleam = np.zeros(3, np.float32), np.zeros(3, np.float32), np.zeros(3, np.float32)
     for row in range(ink.shape[0]):
         for column in range(ink.shape[1]):
             alpha = pixels[row, column, 3] * byte
@@ -149,27 +159,62 @@ def _light(
             peak, drawn_peak = zero, zero
             u, v = on_figure[1] + column * on_figure[0], on_figure[3] + row * on_figure[2]
             for c in range(3):
-                base = to_linear[albedo[row, column, c]]
-                drawn_peak = max(drawn_peak, base)
-                fill[c], unlit[c] = zero, base
-                if cover == 0 or (kinds[label] == 0 and kinds[other] == 0):
-                    continue
-                unlit[c] = zero
-                theirs = min(base, share * swatches[other, c])
+                fill[c], unlit[c] = zero, to_linear[albedo[row, column, c]]
+                drawn_peak = max(drawn_peak, unlit[c])
+            touched = cover > 0 and (kinds[label] != 0 or kinds[other] != 0)
+            if touched:
+                near = sample(contact, u, v, 0) if has_contact else one
                 for second in range(2 if share > 0 else 1):
                     worn = other if second else label
-                    paint = theirs if second else base - theirs
-                    if kinds[worn] == 0:
-                        unlit[c] += paint
-                    if kinds[worn] & 1:
-                        fill[c] += paint * _sample(diffuse, u, v, c)
-                    if kinds[worn] & 2:
-                        if kinds[worn] & 1:
-                            part = share if second else one - share
-                            fill[c] += part * gloss[worn] * _sample(sheen, u, v, c)
+                    kind = kinds[worn]
+                    if kind & 1:
+                        if kind & 4:
+                            tone = step_share(amount, u, v, across_px, down_px, lows, highs)
+                            for c in range(3):
+                                light[c] = shade[c]
+                                if tone > 0:
+                                    light[c] += tone * (sample(toned, u, v, c) - shade[c])
                         else:
-                            fill[c] += paint * gloss[worn] * _sample(glossy, u, v, c)
-                peak = max(peak, fill[c])
+                            for c in range(3):
+                                light[c] = sample(diffuse, u, v, c)
+                            if tint_strength > 0:
+                                dark = one - min(max(level(amount, u, v), zero), one)
+                                for c in range(3):
+                                    light[c] += tint_strength * dark * (tint[c] - light[c])
+                        if has_contact:
+                            for c in range(3):
+                                light[c] *= near
+                    if kind & 2:
+                        if kind & 4:
+                            tone = step_share(
+                                shine, u, v, across_px, down_px, shine_lows, shine_highs
+                            )
+                            for c in range(3):
+                                gleam[c] = sample(toned, u, v, c)
+                        else:
+                            for c in range(3):
+                                if kind & 1:
+                                    gleam[c] = sample(sheen, u, v, c)
+                                else:
+                                    gleam[c] = sample(glossy, u, v, c)
+                            tone = near
+                        for c in range(3):
+                            gleam[c] *= tone
+                    for c in range(3):
+                        base = to_linear[albedo[row, column, c]]
+                        theirs = min(base, share * swatches[other, c])
+                        paint = theirs if second else base - theirs
+                        if not second:
+                            unlit[c] = zero
+                        if kind == 0:
+                            unlit[c] += paint
+                        if kind & 1:
+                            fill[c] += paint * light[c]
+                        if kind & 2:
+                            part = share if second else one - share
+                            fill[c] += gloss[worn] * gleam[c] * (part if kind & 1 else paint)
+                for c in range(3):
+                    peak = max(peak, fill[c])
             knee = min(max(drawn_peak, np.float32(KNEE)), one)
             if peak > knee:
                 room, over = max(one - knee, np.float32(1e-4)), peak - knee
@@ -178,28 +223,48 @@ def _light(
                 pale = over * over / (over * over + np.float32(PALING * PALING))
                 for c in range(3):
                     fill[c] = fill[c] * scale + pale * (bent - fill[c] * scale)
+            if has_rim and touched and kinds[label] != 0:
+                edge = rim_share(
+                    edges, row, column, rim[0], rim[1], rim[2], rim[3], rim[4],
+                    key[0] - (column + 0.5) * key[2], key[1] - (row + 0.5) * key[3],
+                )  # fmt: skip
+                if edge > 0:
+                    for c in range(3):
+                        base = to_linear[albedo[row, column, c]]
+                        aim = rim_colour[c] * (colourless + (one - colourless) * base)
+                        fill[c] += edge * max(aim - fill[c], zero)
             line = ink[row, column] * byte
             pale = zero
-            if line > 0 and cover > 0 and kinds[label] & 1:
-                pale = _paleness(ink_colour[row, column])
+            if line > 0 and touched and kinds[label] & 1:
+                pale = max(paleness_of(ink_colour[row, column]), ink_light)
+                if share > 0 and kinds[label] != kinds[other]:
+                    if kinds[label] & 4:
+                        tone = step_share(amount, u, v, across_px, down_px, lows, highs)
+                    for c in range(3):
+                        if kinds[label] & 4:
+                            light[c] = shade[c] + tone * (sample(toned, u, v, c) - shade[c])
+                        else:
+                            light[c] = sample(diffuse, u, v, c)
+                        light[c] *= near
             ground_alpha = behind
             darkest = one
             for c in range(3):
                 tone = ink_colour[row, column, c] * byte
                 drawn = albedo[row, column, c] * byte
                 drawn += line * (tone - drawn)
-                colour = _encode(to_srgb, fill[c] + unlit[c])
+                shown_fill = fill[c] + unlit[c]
+                colour = encode(to_srgb, shown_fill)
                 if pale > 0:
-                    light = min(_sample(diffuse, u, v, c), one)
-                    tone = to_linear[ink_colour[row, column, c]] * (one + pale * (light - one))
-                    tone = _encode(to_srgb, tone)
+                    tone = to_linear[ink_colour[row, column, c]]
+                    tone *= one + pale * (min(light[c], one) - one)
+                    tone = encode(to_srgb, tone + ink_light * taken * shown_fill)
                 colour += line * (tone - colour)
                 paint = pixels[row, column, c] * byte + paper - cover * drawn
                 if shaded:
-                    ratio = _sample(floor, across, down, c)
+                    ratio = sample(floor, across, down, c)
                     plain = min(max(paint / max(behind, np.float32(1e-3)), zero), one)
-                    paint = behind * _encode(to_srgb, to_linear[int(plain * 255)] * ratio)
-                    shown[c] = _encode(to_srgb, ratio)
+                    paint = behind * encode(to_srgb, to_linear[int(plain * 255)] * ratio)
+                    shown[c] = encode(to_srgb, ratio)
                     darkest = min(darkest, shown[c])
                 fill[c] = cover * colour + paint
             if shaded:

@@ -33,6 +33,8 @@ class ByteLayers:
         others, shares: (H, W) int16 and uint8, the second label and its share of the pixel; see
             ``borders.mixed_labels``.
         palette: the flat colours.
+        edges: (H, W) uint8, see ``edge_distance``, and ``edge_unit``, the pixels of the drawing for
+            1 in it. None where there is no rim.
     """
 
     pixels: Bytes
@@ -44,6 +46,8 @@ class ByteLayers:
     others: NDArray[np.int16]
     shares: Bytes
     palette: Palette
+    edges: Bytes | None = None
+    edge_unit: float = 0.0
 
     @property
     def size(self) -> tuple[int, int]:
@@ -79,6 +83,8 @@ class ByteLayers:
             others=others,
             shares=shares,
             palette=self.palette,
+            edges=None if self.edges is None else _resized(self.edges, place, size),
+            edge_unit=self.edge_unit,
         )
 
 

@@ -20,6 +20,7 @@ def composite(
     light: Passes | Illumination,
     scene: Scene,
     crop: Box | None = None,
+    edges: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.uint8]:
     """The lit drawing, (H, W, 4) uint8 sRGB, for finals and for previews.
 
@@ -35,9 +36,11 @@ def composite(
         light: may have another size than the layers. The weights of passes come from ``scene``.
         scene: provides materials, and colours and powers of lights.
         crop: the part of the drawing in the byte layers, in the drawing's pixels; None is all.
+        edges: what the rim of the scene follows in a ``Drawing``, see ``edge_distance``; None is
+            its silhouette. Byte layers have their own.
     """
     illumination = light if isinstance(light, Illumination) else Illumination.of(light, scene)
     if isinstance(layers, ByteLayers):
         whole = (0.0, 0.0, float(layers.size[0]), float(layers.size[1]))
         return composite_bytes(layers, illumination, scene, crop or whole)
-    return composite_float(layers, illumination, scene)
+    return composite_float(layers, illumination, scene, edges)

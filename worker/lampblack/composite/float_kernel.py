@@ -13,28 +13,33 @@ from ..colour import linear, srgb
 from ..drawing.drawing import Drawing
 from ..materials import MaterialTable
 from ..scene import Scene
-from .borders import mixed_labels, swatch_albedos
+from .edges import edge_distance
 from .illumination import Illumination
+from .line import lay_ink, lit_line
+from .reflection import light_at, reflected_light
 from .resample import Band, enlarge
+from .rim import PLAIN_RIM, rim_shares
+from .roll_off import roll_off
+from .shading import Shading
 from .shadow import shade_background
 
-KNEE = 0.8
-PALING = 3.0
-"""How far above the knee a colour is half way to white."""
-DARK_INK, PALE_INK = 0.15, 0.35
-"""Luma up to which a line stays as drawn, and from which it takes light as the fill does."""
 BAND_PIXELS = 2_000_000
 ROUNDING = 1.5 / 255
 
+Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
 
 def composite_float(
-    drawing: Drawing, illumination: Illumination, scene: Scene
+    drawing: Drawing, illumination: Illumination, scene: Scene, edges: Bytes | None = None
 ) -> NDArray[np.uint8]:
-    """The lit drawing, (H, W, 4) uint8 sRGB with straight alpha; see ``composite``."""
+    """The lit drawing, (H, W, 4) uint8 sRGB with straight alpha; see ``composite``.
+
+    Args:
+        edges: see ``edge_distance``; None is the silhouette only.
+    """
     lit = np.zeros((*drawing.mask.shape, 4), np.uint8)
-    for band, rgba in _bands(drawing, illumination, scene):
+    for band, rgba in _bands(drawing, illumination, scene, edges):
         rounded = np.rint(rgba * 255).astype(np.uint8)
         # Fully transparent pixels keep the artist's colour.
         lit[band.top : band.bottom] = np.where(
@@ -46,24 +51,30 @@ def composite_float(
 
 
 def composite_unrounded(
-    drawing: Drawing, illumination: Illumination, scene: Scene
+    drawing: Drawing, illumination: Illumination, scene: Scene, edges: Bytes | None = None
 ) -> NDArray[np.float32]:
     """The lit drawing before it is rounded, (H, W, 4) float32 sRGB in 0..1, straight alpha."""
     lit = np.zeros((*drawing.mask.shape, 4), np.float32)
-    for band, rgba in _bands(drawing, illumination, scene):
+    for band, rgba in _bands(drawing, illumination, scene, edges):
         lit[band.top : band.bottom] = rgba
     return lit
 
 
 def _bands(
-    drawing: Drawing, illumination: Illumination, scene: Scene
+    drawing: Drawing, illumination: Illumination, scene: Scene, edges: Bytes | None
 ) -> Iterator[tuple[Band, NDArray[np.float32]]]:
     """Bands of the lit drawing, (h, W, 4) in 0..1."""
     width, height = drawing.size
     rows = max(1, BAND_PIXELS // max(width, 1))
+    materials = MaterialTable.of(scene, drawing.palette.colours)
+    area = (0.0, 0.0, float(width), float(height))
+    shading = Shading.of(illumination, scene, materials, 1.0, area)
+    if shading.rim is not None and edges is None:
+        edges = edge_distance(drawing.mask, drawing.ink)
     for top in range(0, height, rows):
         band = Band(width, height, top, min(top + rows, height))
-        yield band, _composite_band(_rows(drawing, band), scene, illumination, band)
+        rim = None if shading.rim is None or edges is None else rim_shares(shading.rim, edges, band)
+        yield band, _composite_band(_rows(drawing, band), shading, band, rim)
 
 
 def _rows(drawing: Drawing, band: Band) -> Drawing:
@@ -77,13 +88,10 @@ def _rows(drawing: Drawing, band: Band) -> Drawing:
 
 
 def _composite_band(
-    drawing: Drawing, scene: Scene, illumination: Illumination, band: Band
+    drawing: Drawing, shading: Shading, band: Band, rim: Floats | None
 ) -> NDArray[np.float32]:
-    diffuse, glossy, unlit = character_light(drawing, scene, illumination, band)
-    fill = _roll_off(diffuse + glossy, linear(drawing.albedo)) + unlit
-    line = _lit_line(drawing, scene, illumination, band)
-    lit = _lay_ink(drawing, line, srgb(fill))
-    drawn = _lay_ink(drawing, drawing.ink_colour, drawing.albedo)
+    lit = _lit_colours(drawing, shading, band, rim)
+    drawn = lay_ink(drawing, drawing.ink_colour, drawing.albedo)
 
     pixels = drawing.pixels.astype(np.float32) / 255
     coverage = drawing.coverage[..., None]
@@ -93,8 +101,8 @@ def _composite_band(
     # The background behind the character: pixels = drawn over background, solved for background.
     behind = kept + paper - coverage
     paint = kept * pixels[..., :3] + paper - coverage * drawn
-    ratio = illumination.floor_ratio
-    if scene.floor is not None and ratio is not None:
+    ratio = shading.floor_ratio
+    if ratio is not None:
         paint, behind = shade_background(paint, behind, coverage, enlarge(ratio, band))
     alpha = coverage + behind
     light = coverage * lit + paint
@@ -125,104 +133,18 @@ def _lift_off_paper(
     return lifted.astype(np.float32), np.where(papered, least, alpha).astype(np.float32)
 
 
-def _lit_line(
-    drawing: Drawing, scene: Scene, illumination: Illumination, band: Band
+def _lit_colours(
+    drawing: Drawing, shading: Shading, band: Band, rim: Floats | None
 ) -> NDArray[np.float32]:
-    """The colour of the line, sRGB (H, W, 3). A pale line is shaded as the fill is; it would glow
-    in the shade otherwise. A dark one stays as drawn."""
-    pale = paleness(drawing.ink_colour) * (drawing.ink > 0)
-    inked = MaterialTable.of(scene, drawing.palette.colours).diffuse[drawing.labels] & (pale > 0)
-    if not inked.any():
-        return drawing.ink_colour
-    light = np.minimum(enlarge(illumination.diffuse, band)[inked], 1)
-    line = drawing.ink_colour.copy()
-    line[inked] = srgb(linear(line[inked]) * (1 + pale[inked, None] * (light - 1)))
-    return line
-
-
-def paleness(ink_colour: Floats) -> Floats:
-    """(...) how far a line of this colour, (..., 3) sRGB, takes light as the fill does, 0 to 1."""
-    light = ink_colour @ np.array([0.299, 0.587, 0.114], np.float32)
-    share = np.clip((light - DARK_INK) / (PALE_INK - DARK_INK), 0, 1)
-    return np.asarray(share * share * (3 - 2 * share), np.float32)
-
-
-def character_light(
-    drawing: Drawing, scene: Scene, illumination: Illumination, band: Band
-) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """Diffuse light, glossy light, and colours that are shown as drawn, for the fill in ``band``;
-    scene-linear (H, W, 3), unbounded."""
-    albedo = linear(drawing.albedo)
-    materials = MaterialTable.of(scene, drawing.palette.colours)
-    none = np.zeros_like(albedo)
-    diffuse = enlarge(illumination.diffuse, band) if materials.diffuse.any() else none
-    mirrors, painted = materials.glossy & ~materials.diffuse, materials.glossy & materials.diffuse
-    glossy = enlarge(illumination.glossy, band) if mirrors.any() else none
-    sheen = enlarge(illumination.sheen, band) if painted.any() else none
-    other, share = mixed_labels(drawing.labels, albedo, drawing.palette)
-    blend = share > 0
-    theirs = np.minimum(
-        albedo[blend], share[blend, None] * swatch_albedos(drawing.palette)[other[blend]]
-    )
-    albedo[blend] -= theirs
-    found = _reflected(
-        materials, drawing.labels, albedo, 1 - share[..., None], diffuse, glossy, sheen
-    )
-    second = _reflected(
-        materials, other[blend], theirs, share[blend, None],
-        diffuse[blend], glossy[blend], sheen[blend],
-    )  # fmt: skip
-    for whole, part in zip(found, second, strict=True):
-        whole[blend] += part
-    return found
-
-
-def _reflected(
-    materials: MaterialTable,
-    labels: NDArray[np.int16],
-    albedo: Floats,
-    share: Floats,
-    diffuse: Floats,
-    glossy: Floats,
-    sheen: Floats,
-) -> tuple[Floats, Floats, Floats]:
-    """Diffuse light, glossy light, and colours left as drawn, (..., 3) each, of parts of
-    pixels: ``albedo`` is weighted by their ``share`` (..., 1)."""
-    has_diffuse, has_glossy = (
-        kind[labels][..., None] for kind in (materials.diffuse, materials.glossy)
-    )
-    amount = materials.gloss[labels][..., None]
-    none = np.float32(0)
-    return (
-        np.where(has_diffuse, albedo * diffuse, none),
-        np.where(
-            has_glossy,
-            amount * np.where(has_diffuse, share * sheen, albedo * glossy),
-            none,
-        ),
-        np.where(has_diffuse | has_glossy, none, albedo),
-    )
-
-
-def _roll_off(lit: NDArray[np.float32], drawn: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Compress highlights brighter than white, keeping their hue, scene-linear (H, W, 3).
-
-    The brightest channel is unchanged up to ``KNEE``, and up to that of the drawn colour, so that
-    unit irradiance stays exact. Above, it approaches 1 as slowly as film does, and the colour pales
-    where there is far too much light. So a bright spot keeps its shape; clipping would leave a
-    flat patch with a hard edge.
-    """
-    peak = lit.max(axis=2, keepdims=True)
-    knee = np.clip(drawn.max(axis=2, keepdims=True), KNEE, 1)
-    room = np.maximum(1 - knee, 1e-4)
-    over = np.maximum(peak - knee, 0)
-    bent = np.minimum(peak, knee) + room * over / (room + over)
-    rolled = lit * np.where(over > 0, bent / np.maximum(peak, KNEE), 1)
-    pale = over * over / (over * over + PALING * PALING)
-    return np.asarray(rolled + pale * (bent - rolled), np.float32)
-
-
-def _lay_ink(drawing: Drawing, line: Floats, fill: Floats) -> Floats:
-    """The artist's line in the colour ``line`` composited over the fill, sRGB (H, W, 3)."""
-    ink = drawing.ink[..., None]
-    return (fill + ink * (line - fill)).astype(np.float32)
+    """Fill and line under the light, sRGB (H, W, 3)."""
+    albedo, diffuse = linear(drawing.albedo), shading.materials.diffuse[drawing.labels]
+    light = light_at(drawing, shading, band)
+    paint, gloss, unlit = reflected_light(drawing, shading, light)
+    fill = roll_off(paint + gloss, albedo)
+    if rim is not None and shading.rim is not None:
+        lit = (diffuse | shading.materials.glossy[drawing.labels])[..., None]
+        target = shading.rim.colour * (PLAIN_RIM + (1 - PLAIN_RIM) * albedo)
+        fill += np.where(lit, rim[..., None] * np.maximum(target - fill, 0), np.float32(0))
+    fill += unlit
+    line = lit_line(drawing, light.diffuse, fill, diffuse, shading.ink_light)
+    return lay_ink(drawing, line, srgb(np.minimum(fill, 1)))

@@ -33,6 +33,7 @@ class Illumination:
     Attributes:
         character: the lights on the character. ambient: the ambient light on it, if it has power.
         floor: the sources on the floor, if there is one.
+        openness: (h, w, 3), the ambient light of strength 1 on the character, if it was traced.
         character_area, floor_area: the part of the drawing that they cover, in its pixels; None
             is the part that the layers show.
     """
@@ -40,6 +41,7 @@ class Illumination:
     character: Sequence[Weighted]
     ambient: Weighted | None = None
     floor: Sequence[Weighted] = ()
+    openness: Floats | None = None
     character_area: Box | None = None
     floor_area: Box | None = None
 
@@ -64,6 +66,7 @@ class Illumination:
                 for weight, light in sources
                 if light.floor is not None and light.open_floor is not None
             ],
+            None if ambient is None else ambient.diffuse,
         )
 
     @cached_property

@@ -45,12 +45,13 @@ class LitCel:
         prepared, scene, passes = traced.task.prepared, traced.task.scene, traced.passes
         drawing = prepared.layers
         assert isinstance(drawing, Drawing)
+        edges = prepared.edges_for(scene)
         if targets.kind == "exr":
-            apart = None if targets.apart == "none" else float_stages(drawing, passes, scene)
+            apart = None if targets.apart == "none" else float_stages(drawing, passes, scene, edges)
             return LitCel(make_layers(prepared, scene, passes), apart)
         if targets.apart == "none":
-            return LitCel(composite(drawing, passes, scene))
-        stages = byte_stages(drawing, passes, scene)
+            return LitCel(composite(drawing, passes, scene, edges=edges))
+        stages = byte_stages(drawing, passes, scene, edges)
         return LitCel(stages.lit[-1], stages)
 
 

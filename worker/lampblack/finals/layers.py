@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from ..camera import look_through
 from ..colour import linear
-from ..composite.float_kernel import character_light, composite_unrounded
+from ..composite.float_kernel import composite_unrounded
 from ..composite.illumination import Illumination, weigh
+from ..composite.reflection import character_light
 from ..composite.resample import Band, enlarge
 from ..drawing import Drawing
 from ..prepared import PreparedDrawing
@@ -79,7 +80,7 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
     line = drawing.ink[..., None] * cover
     ratio = illumination.floor_ratio
     return Layers(
-        lit=composite_unrounded(drawing, illumination, scene),
+        lit=composite_unrounded(drawing, illumination, scene, prepared.edges_for(scene)),
         colour=colour,
         shadow=np.ones_like(diffuse) if ratio is None else enlarge(ratio, band),
         ink=np.concatenate([linear(drawing.ink_colour) * line, line], axis=2),

@@ -91,7 +91,8 @@ def contributions_of(
     for subject in ("character", "floor") if floor else ("character",):
         area = character if subject == "character" else whole
         for light, weight in (*lights, (None, ambient)):
-            if not weight.any():
+            occluding = light is None and subject == "character" and scene.look.contact > 0
+            if not weight.any() and not occluding:
                 continue
             at = light and light.geometry
             key = (drawing.digest, drawing.detail, shared, subject, area, at)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..composite import composite
 from ..composite.byte_kernel import warm_up
 from ..composite.byte_layers import ByteLayers, cut_picture
+from ..composite.edges import reach_of
 from ..composite.illumination import Illumination
 from ..prepared import PreparedDrawing
 from ..surface import depth_picture
@@ -117,13 +118,17 @@ class Painter:
     def prepare(self, request: ViewRequest, drawing: PreparedDrawing) -> ByteLayers:
         """The drawing's layers at the size and crop of the viewport, cached."""
         crop, size = request.viewport.crop, request.viewport.size
-        key = (drawing.digest, drawing.detail, crop, size)
+        rim = request.scene is not None and request.scene.rim is not None
+        key = (drawing.digest, drawing.detail, crop, size, rim)
         layers = self._layers.get(key)
         if layers is None:
             x, y, width, height = crop
             step = drawing.step
             whole = drawing.compact().layers
             assert isinstance(whole, ByteLayers)
+            if rim:
+                unit = reach_of(drawing.edges.shape) * step / 255
+                whole = replace(whole, edges=drawing.edges, edge_unit=unit)
             layers = whole.cut((x / step, y / step, width / step, height / step), size)
             self._layers.put(key, layers, layers.nbytes)
         return layers
@@ -193,9 +198,11 @@ class Painter:
             for contribution, light in zip(view.contributions, lights, strict=True)
         ]
         on_character = [(c.light, found) for c, found in pairs if c.subject == "character"]
+        ambient = next((found for light, found in on_character if light is None), None)
         light = Illumination(
             character=[found for light, found in on_character if light is not None],
-            ambient=next((found for light, found in on_character if light is None), None),
+            ambient=ambient,
+            openness=None if ambient is None else ambient[1],
             floor=[found for c, found in pairs if c.subject == "floor"],
             character_area=view.character,
             floor_area=(0.0, 0.0, float(drawing.size[0]), float(drawing.size[1])),

@@ -29,6 +29,7 @@ from .document import (
 )
 from .floor import Floor, FloorKey
 from .lights import Ambient, AreaLight, LightKey, shining
+from .look import MAX_TONES, Look, Rim
 from .materials import Material
 from .rig import Rig
 from .scene import MAX_LIGHTS, VERSION, Canvas, Scene, default_light, default_scene
@@ -40,6 +41,7 @@ __all__ = [
     "MAX_JSON_BYTES",
     "MAX_KEYS",
     "MAX_LIGHTS",
+    "MAX_TONES",
     "VERSION",
     "Ambient",
     "AreaLight",
@@ -56,8 +58,10 @@ __all__ = [
     "Hint",
     "LayerBody",
     "LightKey",
+    "Look",
     "Material",
     "Rig",
+    "Rim",
     "Scene",
     "decode_depth",
     "decode_rig",

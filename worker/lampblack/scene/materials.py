@@ -8,6 +8,7 @@ from typing import Annotated
 from msgspec import Meta
 
 from ..affects import Affects
+from ..choices import LookChoice
 from .values import Extra, Unit
 
 
@@ -16,11 +17,13 @@ class Material:
     """What a flat colour is made of: diffuse, glossy, both, or neither (left as drawn).
 
     ``gloss`` is the amount of the glossy lobe, ``roughness`` its width (the paper's glossy
-    exponent, the other way round: 0 is a mirror, 1 is satin).
+    exponent, the other way round: 0 is a mirror, 1 is satin). ``look`` is that of the scene, or the
+    colour's own: smooth, or in tones.
     """
 
     diffuse: Annotated[bool, Affects.COMPOSITE] = True
     glossy: bool = False
     gloss: Annotated[Unit, Affects.GLOSS] = 0.5
     roughness: Annotated[float, Meta(ge=0.02, le=1)] = 0.3
+    look: Annotated[LookChoice, Affects.COMPOSITE] = "scene"
     extra: Extra = field(default_factory=dict)

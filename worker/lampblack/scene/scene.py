@@ -13,6 +13,7 @@ from ..choices import QualityName
 from .depth import Depth
 from .floor import Floor
 from .lights import Ambient, AreaLight
+from .look import Look, Rim
 from .materials import Material
 from .values import Colour, Extra
 
@@ -47,6 +48,8 @@ class Scene:
     )
     default_material: Material = field(default_factory=Material)
     floor: Floor | None = None
+    look: Annotated[Look, Affects.COMPOSITE] = field(default_factory=Look)
+    rim: Annotated[Rim | None, Affects.COMPOSITE] = None
     relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
     depth: Depth = field(default_factory=Depth)
     quality: Annotated[QualityName, Affects.SAMPLING] = "low"

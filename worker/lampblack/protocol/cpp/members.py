@@ -136,6 +136,8 @@ class Translator:
             _, low, high = inner[0], *_number(*unwrapped(inner[0])).arguments
             return _Rule(f"std::array<double, {len(inner)}>", "reals", (low, high))
         item, most = self._rule(inner[0], owner, name), str(meta.max_length)
+        if item.type == "double":
+            return _Rule("QVector<double>", "reals", (most, *item.arguments), range=item.range)
         if item.type == "QString":
             return _Rule("QStringList", "texts", (most, *item.arguments[1:]))
         method = "listIfAny" if name == "keys" else "list"

@@ -1,0 +1,109 @@
+"""The rim: a band of light along the edges of the character."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..colour import hex_linear
+from ..compiled import compiled
+from ..scene import Scene
+from .edges import reach_of
+from .resample import Band
+from .tones import strongest_light
+
+PLAIN_RIM = 0.65
+"""Share of the rim's light that does not take the colour of the paint: dark cloth has a rim too."""
+SOFT = 0.15
+"""Half of the blend at the inner side of the band, as a share of its width."""
+
+Bytes = NDArray[np.uint8]
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class RimLight:
+    """A scene's rim, ready to be shown.
+
+    Attributes:
+        width: of the band, in pixels of the drawing. colour: (3,) scene-linear.
+        strength, away: see ``Rim``.
+        key: (x, y) of the strongest light, in pixels of the drawing.
+    """
+
+    width: float
+    colour: Floats
+    strength: float
+    away: float
+    key: tuple[float, float]
+
+    @staticmethod
+    def of(scene: Scene) -> RimLight | None:
+        """The rim of ``scene``; None if it has none."""
+        rim = scene.rim
+        if rim is None or not rim.strength:
+            return None
+        colour = hex_linear(rim.colour)
+        return RimLight(rim.width, colour, rim.strength, rim.away, strongest_light(scene))
+
+
+def rim_shares(rim: RimLight, edges: Bytes, band: Band) -> Floats:
+    """(rows, W) how much of the rim's light each pixel of ``band`` gets, 0 to 1.
+
+    Args:
+        edges: (H, W), see ``edge_distance``.
+    """
+    shares = np.empty((band.bottom - band.top, band.width), np.float32)
+    _shares(
+        edges, reach_of(edges.shape) / 255, rim.width, rim.strength, rim.away, *rim.key, band.top,
+        shares,
+    )  # fmt: skip
+    return shares
+
+
+@compiled
+def rim_share(
+    edges: Any, row: int, column: int, unit: float, width: float, pixel: float, strength: float,
+    away: float, right: float, down: float,
+) -> Any:  # fmt: skip
+    """The rim at a pixel of ``edges``, 0 to 1.
+
+    Args:
+        unit: pixels of the drawing for 1 in ``edges``. pixel: the same for one pixel.
+        right, down: from the pixel to the strongest light, in the same direction as the columns
+            and rows.
+    """
+    distance = edges[row, column] * unit
+    soft = max(SOFT * width, 0.6 * pixel)
+    share = (width - distance) / (2 * soft) + 0.5
+    if share <= 0:
+        return np.float32(0)
+    share = min(share, 1.0)
+    share = strength * share * share * (3 - 2 * share)
+    if away > 0:
+        rows, columns = edges.shape
+        x0, x1 = max(column - 2, 0), min(column + 2, columns - 1)
+        y0, y1 = max(row - 2, 0), min(row + 2, rows - 1)
+        across = float(edges[row, x1]) - float(edges[row, x0])
+        along = float(edges[y1, column]) - float(edges[y0, column])
+        length = np.sqrt((across * across + along * along) * (right * right + down * down))
+        facing = -(across * right + along * down) / max(length, 1e-6)
+        lit = min(max((facing + 0.5) / 1.0, 0.0), 1.0)
+        share *= 1 - away * lit * lit * (3 - 2 * lit)
+    return np.float32(share)
+
+
+@compiled
+def _shares(
+    edges: Any, unit: float, width: float, strength: float, away: float, x: float, y: float,
+    top: int, shares: Any,
+) -> None:  # fmt: skip
+    for row in range(shares.shape[0]):
+        for column in range(shares.shape[1]):
+            shares[row, column] = rim_share(
+                edges, top + row, column, unit, width, 1.0, strength, away,
+                x - (column + 0.5), y - (top + row + 0.5),
+            )  # fmt: skip

@@ -1,0 +1,60 @@
+"""Values of pictures and tables at one pixel, for compiled loops."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..colour import linear, srgb
+from ..compiled import compiled
+from .line import DARK_INK, PALE_INK
+
+STEPS = 4096
+LINEAR = linear(np.arange(256) / 255)
+SRGB = srgb(np.arange(STEPS + 2) / STEPS)
+"""Tables from sRGB bytes to scene-linear light, and back from light in 0..1."""
+
+
+@compiled
+def sample(picture: Any, u: float, v: float, channel: int) -> Any:
+    """Bilinear at (u, v) in 0..1, continued past the edges."""
+    height, width = picture.shape[0], picture.shape[1]
+    x = min(max(u * width - 0.5, 0.0), width - 1.0)
+    y = min(max(v * height - 0.5, 0.0), height - 1.0)
+    x0, y0 = int(x), int(y)
+    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
+    s, t = np.float32(x - x0), np.float32(y - y0)
+    above = picture[y0, x0, channel] + s * (picture[y0, x1, channel] - picture[y0, x0, channel])
+    below = picture[y1, x0, channel] + s * (picture[y1, x1, channel] - picture[y1, x0, channel])
+    return above + t * (below - above)
+
+
+@compiled
+def level(picture: Any, u: float, v: float) -> Any:
+    """``sample`` of a picture with one channel."""
+    height, width = picture.shape
+    x = min(max(u * width - 0.5, 0.0), width - 1.0)
+    y = min(max(v * height - 0.5, 0.0), height - 1.0)
+    x0, y0 = int(x), int(y)
+    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
+    s, t = np.float32(x - x0), np.float32(y - y0)
+    above = picture[y0, x0] + s * (picture[y0, x1] - picture[y0, x0])
+    below = picture[y1, x0] + s * (picture[y1, x1] - picture[y1, x0])
+    return above + t * (below - above)
+
+
+@compiled
+def encode(table: Any, value: Any) -> Any:
+    """sRGB of scene-linear ``value``, clipped to 0..1."""
+    at = min(max(value, np.float32(0)), np.float32(1)) * np.float32(STEPS)
+    index = int(at)
+    return table[index] + (at - index) * (table[index + 1] - table[index])
+
+
+@compiled
+def paleness_of(colour: Any) -> Any:
+    """See ``line.paleness``."""
+    light = (0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2]) / 255
+    share = min(max((light - DARK_INK) / (PALE_INK - DARK_INK), 0.0), 1.0)
+    return np.float32(share * share * (3 - 2 * share))

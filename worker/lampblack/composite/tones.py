@@ -1,0 +1,316 @@
+"""Tones: traced light in flat steps, as in cel animation, and the colour of the shade.
+
+The amount of direct light is a share of the full light, that of a surface that faces the strongest
+light. It is smoothed before it is compared with the thresholds, and enlarged by splines: so the
+edges of the tones are clean curves, at whatever resolution the light was traced.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..colour import hex_linear
+from ..compiled import compiled
+from ..drawing.morphology import highest
+from ..scene import AreaLight, Look, Scene, shining
+from .illumination import Illumination, add_up
+from .resample import Band, Box
+from .spline import refined
+
+SMOOTHING = 0.0022
+"""Deviation of the smoothing, as a share of the canvas's longer side."""
+ISLAND = 0.014
+"""Side of the smallest island of a tone, as a share of the canvas's longer side."""
+MOST_ISLANDS = 200
+MARGIN = 0.25
+"""Islands are sought a little beyond a threshold too, by this share of it."""
+BEHIND = 0.25
+"""Share of the full light of a light behind the paper."""
+FAINT = np.float32(0.02)
+MOST = 3
+"""How often light is enlarged at most, along each side, before the rest is interpolated."""
+CEL = Look(tones=(0.42,), shade_strength=0.5)
+"""The tones of a material in tones, in a scene without any."""
+FLOOR_TONE = 0.25
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class Tones:
+    """Light that was traced, ready to be shown in tones.
+
+    Attributes:
+        amount: (h, w) direct light as a share of the full light, linear.
+        shine: (h, w) glossy light in the same measure.
+        lit: (h, w, 3) scene-linear, the light of the brightest tone.
+        shade: (3,) the light of the darkest.
+        lows, highs: (n,) where each step begins and ends. highlight: (2,) the same of highlights.
+        tint: (3,) what smooth light becomes in full shade. strength: how far.
+    """
+
+    amount: Floats
+    shine: Floats
+    lit: Floats
+    shade: Floats
+    lows: Floats
+    highs: Floats
+    highlight: Floats
+    tint: Floats
+    strength: np.float32
+
+
+def full_light(scene: Scene) -> float:
+    """The light on a surface in the middle of the canvas that faces the strongest light."""
+    return max((strength for _, (strength, _) in _by_light(scene)), default=0.0)
+
+
+def strongest_light(scene: Scene) -> tuple[float, float]:
+    """(x, y) of the light that is strongest in the middle of the canvas; of none, that above the
+    upper left."""
+    found = [(strength, light.x, light.y) for light, (strength, _) in _by_light(scene)]
+    _, x, y = max(found, default=(0.0, 0.0, 0.0))
+    return x, y
+
+
+def tones_of(
+    illumination: Illumination, scene: Scene, pixel: float, area: Box, *, shine: bool = False
+) -> Tones:
+    """The tones of the character's light.
+
+    Args:
+        pixel: width of a pixel of the result, in pixels of the drawing.
+        area: what the light covers, in pixels of the drawing.
+        shine: whether there are highlights.
+    """
+    look = scene.look if scene.look.tones else replace(CEL, shade_colour=scene.look.shade_colour)
+    direct = add_up([(weight, light) for weight, light, _ in illumination.character])
+    full = np.float32(full_light(scene))
+    height, width = direct.shape[:2]
+    element = max(area[2] / width, area[3] / height)
+    longest = max(scene.canvas.width, scene.canvas.height)
+    blur = max(0.6, SMOOTHING * longest / element)
+    brightest = np.maximum(np.maximum(direct[..., 0], direct[..., 1]), direct[..., 2])
+    reach = _reach(scene, area, (height, width))
+    lows, highs = steps(look)
+    if full > 0:
+        amount = _blurred(brightest / reach, blur)
+        amount = without_islands(amount, lows, highs, round((ISLAND * longest / element) ** 2))
+    else:
+        amount = np.ones((height, width), np.float32)
+    ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+    scale = exposure(float(ambient.max() + full))
+    faint = FAINT * full + np.float32(1e-6)
+    lit = np.empty((height, width, 3), np.float32)
+    _tint(direct, brightest, faint, _hue(scene), scale * ambient, np.float32(scale) * full, lit)
+    tint = hex_linear(look.shade_colour) * np.float32(scale * (ambient.max() + full))
+    factor = min(MOST, max(1, math.ceil(element / pixel / 2)))
+    edge = np.float32(look.highlight**2), np.float32((look.highlight + look.softness / 2) ** 2)
+    mirrored = np.zeros((1, 1), np.float32)
+    if shine and full > 0:
+        glossy = add_up([(weight, light) for weight, _, light in illumination.character])
+        mirrored = refined(_blurred(glossy.max(axis=2) / full, blur), factor)
+    return Tones(
+        amount=refined(np.ascontiguousarray(amount, np.float32), factor),
+        shine=mirrored,
+        lit=lit,
+        shade=(scale * ambient + look.shade_strength * (tint - scale * ambient)).astype(np.float32),
+        lows=lows,
+        highs=highs,
+        highlight=np.array(edge, np.float32),
+        tint=tint.astype(np.float32),
+        strength=np.float32(scene.look.shade_strength),
+    )
+
+
+def toned_floor(ratio: Floats, scene: Scene) -> Floats:
+    """The floor's light with the character over that without it, (h, w, 3), in two tones: light,
+    and one shade for the shadow."""
+    ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+    full = np.float32(full_light(scene))
+    if full <= 0:
+        return ratio
+    dark = ambient / (ambient + full * _hue(scene))
+    tint = hex_linear(scene.look.shade_colour)
+    shade = dark + np.float32(scene.look.shade_strength) * (tint - dark)
+    least = np.float32(dark.max())
+    light = np.clip((ratio.max(axis=2) - least) / (1 - least), 0, 1)
+    fine = refined(ndimage.gaussian_filter(light, 0.8, mode="nearest"), 4)
+    share = np.empty_like(fine)
+    look = scene.look
+    width = look.softness * FLOOR_TONE
+    low, high = (np.array([FLOOR_TONE + side * width], np.float32) for side in (-1, 1))
+    _shares(fine, low, high, 0, fine.shape[0], fine.shape[0], share)
+    return np.asarray(shade + share[..., None] * (1 - shade), np.float32)
+
+
+def exposure(light: float) -> float:
+    """The factor by which tones are shown: full light up to 1 is shown as it is, more light
+    brightens the drawn colours slowly."""
+    return 1.0 if light <= 1 else (1 + 0.35 * math.log(light)) / light
+
+
+def steps(look: Look) -> tuple[Floats, Floats]:
+    """(n,) where the step to each brighter tone begins, and where it ends, linear."""
+    at = np.sort(np.array(look.tones, np.float32))
+    half = np.float32(look.softness / 2)
+    low, high = np.maximum(at - half, 0), at + half
+    return (low * low).astype(np.float32), (high * high).astype(np.float32)
+
+
+def without_islands(amount: Floats, lows: Floats, highs: Floats, smallest: int) -> Floats:
+    """``amount``, (h, w), without the regions of fewer than ``smallest`` elements that a step
+    cuts out."""
+    found = amount
+    for low, high in zip(lows, highs, strict=True):
+        for lit in (True, False):
+            # Also what nearly crosses the step: it would be seen as a ghost.
+            area = found > low * (1 - MARGIN) if lit else found < high * (1 + MARGIN)
+            regions, count = ndimage.label(area)
+            small = np.bincount(regions.ravel(), minlength=count + 1) < smallest
+            small[0] = False
+            if small.any():
+                found = found.copy() if found is amount else found
+                boxes = ndimage.find_objects(regions)
+                for number in np.flatnonzero(small)[:MOST_ISLANDS]:
+                    _flood(found, regions, number, boxes[number - 1])
+    return found
+
+
+def _flood(
+    amount: Floats, regions: NDArray[np.int32], number: int, box: tuple[slice, slice]
+) -> None:
+    """Give the island ``number`` of ``regions`` the light around it."""
+    window = tuple(slice(max(0, side.start - 3), side.stop + 3) for side in box)
+    island = regions[window] == number
+    shore = highest(island, 1)
+    around = highest(shore, 2) & ~shore
+    if around.any():
+        amount[window][shore] = np.median(amount[window][around])
+
+
+def tone_shares(tones: Tones, band: Band) -> Floats:
+    """(rows, W) how bright the tone of each pixel of ``band`` is: 0 is shade, 1 the brightest."""
+    shares = np.empty((band.bottom - band.top, band.width), np.float32)
+    _shares(tones.amount, tones.lows, tones.highs, band.top, band.bottom, band.height, shares)
+    return shares
+
+
+def highlight_shares(tones: Tones, band: Band) -> Floats:
+    """(rows, W) how much of each pixel of ``band`` is in a highlight, 0 to 1."""
+    shares = np.empty((band.bottom - band.top, band.width), np.float32)
+    low, high = tones.highlight[:1], tones.highlight[1:]
+    _shares(tones.shine, low, high, band.top, band.bottom, band.height, shares)
+    return shares
+
+
+def _by_light(scene: Scene) -> list[tuple[AreaLight, tuple[float, Floats]]]:
+    """Each light with the light on a surface in the middle of the canvas that faces it, and with
+    its colour times its power."""
+    middle = scene.canvas.width / 2, scene.canvas.height / 2
+    found = []
+    for light, shines in zip(scene.lights, shining(scene.lights), strict=True):
+        if not shines:
+            continue
+        weight = hex_linear(light.colour) * np.float32(light.power)
+        distance = math.dist((light.x, light.y, light.z), (*middle, 0)) or 1.0
+        near = 1.0 if light.kind == "sun" else (scene.canvas.default_height / distance) ** 2
+        behind = min(1.0, max(0.0, -light.z / distance / 0.3))
+        strength = float(weight.max()) * near * (1 - (1 - BEHIND) * behind)
+        found.append((light, (strength, weight)))
+    return found
+
+
+def _reach(scene: Scene, area: Box, size: tuple[int, int]) -> Floats:
+    """(h, w) the full light at each element of ``area``: half way between that in the middle of the
+    canvas and that at its own distance. A lamp lights what is near it, but tones follow the form
+    more than the distance."""
+    height, width = size
+    x = area[0] + (np.arange(width, dtype=np.float32) + 0.5) * (area[2] / width)
+    y = area[1] + (np.arange(height, dtype=np.float32)[:, None] + 0.5) * (area[3] / height)
+    middle = scene.canvas.width / 2, scene.canvas.height / 2
+    found = np.full(size, 1e-6, np.float32)
+    for light, (strength, _) in _by_light(scene):
+        far = (middle[0] - light.x) ** 2 + (middle[1] - light.y) ** 2 + light.z**2
+        near = (x - light.x) ** 2 + (y - light.y) ** 2 + light.z**2
+        fall = 1.0 if light.kind == "sun" else np.sqrt(far / np.maximum(near, 0.02 * far + 1))
+        np.maximum(found, strength * fall, out=found)
+    return found
+
+
+@compiled
+def _tint(
+    direct: Any, brightest: Any, faint: Any, hue: Any, ambient: Any, full: Any, lit: Any
+) -> None:
+    """Light as bright as ``full`` in the colour of ``direct``, or in ``hue`` where that is faint,
+    and ``ambient`` light."""
+    for row in range(lit.shape[0]):
+        for column in range(lit.shape[1]):
+            share = full / (brightest[row, column] + faint)
+            for c in range(3):
+                lit[row, column, c] = ambient[c] + share * (direct[row, column, c] + faint * hue[c])
+
+
+def _blurred(plane: Floats, deviation: float) -> Floats:
+    found: Floats = ndimage.gaussian_filter(plane, deviation, mode="nearest", truncate=3)
+    return found
+
+
+def _hue(scene: Scene) -> Floats:
+    """(3,) the colour of all lights, its brightest channel 1."""
+    total = sum((weight for _, (_, weight) in _by_light(scene)), np.zeros(3, np.float32))
+    return np.asarray(total / total.max() if total.max() > 0 else total + 1, np.float32)
+
+
+@compiled
+def step_share(
+    amount: Any, u: float, v: float, across: float, down: float, lows: Any, highs: Any
+) -> Any:
+    """The tone at (u, v) in 0..1 of ``amount``; one pixel is ``across`` wide and ``down`` high.
+    Steps are at least as wide as a pixel, so that their edges are anti-aliased."""
+    height, width = amount.shape
+    x = min(max(u * width - 0.5, 0.0), width - 1.0)
+    y = min(max(v * height - 0.5, 0.0), height - 1.0)
+    x0, y0 = int(x), int(y)
+    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
+    a, b, c, d = amount[y0, x0], amount[y0, x1], amount[y1, x0], amount[y1, x1]
+    # Most pixels are far from any step.
+    least, most = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
+    reach = np.float32(1.5 * max(width * across, height * down, 1.0)) * (most - least)
+    if most + reach < lows[0]:
+        return np.float32(0)
+    if least - reach > highs[-1]:
+        return np.float32(1)
+    s, t = np.float32(x - x0), np.float32(y - y0)
+    above, below = a + s * (b - a), c + s * (d - c)
+    value = above + t * (below - above)
+    slope_x = np.float32(width * across) * ((b - a) + t * ((d - c) - (b - a)))
+    slope_y = np.float32(height * down) * (below - above)
+    pixel = np.float32(0.75) * np.sqrt(slope_x * slope_x + slope_y * slope_y)
+    total = np.float32(0)
+    for step in range(len(lows)):
+        middle = np.float32(0.5) * (lows[step] + highs[step])
+        half = max(np.float32(0.5) * (highs[step] - lows[step]), pixel, np.float32(1e-4))
+        share = min(max((value - middle) / half, np.float32(-1)), np.float32(1))
+        share = np.float32(0.5) + np.float32(0.5) * share
+        total += share * share * (np.float32(3) - np.float32(2) * share)
+    return total / np.float32(len(lows))
+
+
+@compiled
+def _shares(
+    amount: Any, lows: Any, highs: Any, top: int, bottom: int, height: int, shares: Any
+) -> None:
+    width = shares.shape[1]
+    for row in range(top, bottom):
+        for column in range(width):
+            shares[row - top, column] = step_share(
+                amount, (column + 0.5) / width, (row + 0.5) / height, 1 / width, 1 / height,
+                lows, highs,
+            )  # fmt: skip

@@ -1,0 +1,53 @@
+"""The look: how traced light becomes a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from msgspec import Meta
+
+from .values import Colour, Extra, Unit
+
+MAX_TONES = 3
+
+
+@dataclass(frozen=True)
+class Look:
+    """How light is shown: in smooth gradients, or in flat tones as in cel animation.
+
+    ``tones`` are thresholds between two tones each, as shares of the full light, the way the eye
+    sees them: 0 is no light, 1 a surface that faces the strongest light. Without any the light is
+    smooth. ``softness`` is the width of the blend at a threshold; 0 is hard. ``shade_strength`` is
+    how far the shade has the drawn colour times ``shade_colour`` in place of its own light.
+    ``highlight`` is the threshold of the highlights of glossy paint, where there are tones.
+
+    ``contact`` darkens where surfaces touch. With ``ink_light`` the line takes light: it is darker
+    in shade, and tinted by the lit fill. ``glow`` is the bloom around emissive colours.
+    """
+
+    tones: Annotated[tuple[Unit, ...], Meta(max_length=MAX_TONES)] = ()
+    softness: Unit = 0.05
+    shade_colour: Colour = "#4a4468"
+    shade_strength: Unit = 0.0
+    highlight: Unit = 0.5
+    contact: Unit = 0.0
+    ink_light: Unit = 0.0
+    glow: Unit = 0.0
+    extra: Extra = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Rim:
+    """A band of light inside the character's silhouette, and along the edge of each part that is in
+    front of another.
+
+    ``width`` is that of the band. It begins at the inner edge of the outline. ``away`` is how far
+    the band is left out on the side that faces the strongest light: 0 is all around.
+    """
+
+    width: Annotated[float, Meta(ge=0.25, le=1000, description="canvas pixels")] = 8.0
+    colour: Colour = "#ffffff"
+    strength: Unit = 0.8
+    away: Unit = 0.5
+    extra: Extra = field(default_factory=dict)
