@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import Image, ImageDraw
 from scipy import ndimage
 
 from lampblack.drawing import Drawing, character_mask, decompose_drawing
@@ -397,3 +398,36 @@ def test_tiny_pictures_do_not_crash(shape: tuple[int, int]) -> None:
                 continue
         assert drawing.mask.shape == shape
         assert np.isfinite(drawing.albedo).all()
+
+
+def zigzag(width: float, turn: float, scale: float) -> NDArray[np.uint8]:
+    """A patch with a dark outline, and on it a stroke of one flat blue."""
+    fine, side = 4, round(400 * scale)
+    picture = Image.new("RGBA", (side * fine, side * fine))
+    draw, k = ImageDraw.Draw(picture), fine * scale
+    draw.rounded_rectangle(
+        [20 * k, 20 * k, 380 * k, 380 * k], 60 * k, (244, 214, 120), (20, 16, 24), int(9 * k)
+    )
+    way = np.array([(-100, -65), (-20, -65), (-80, 65), (80, 65), (20, -65), (100, -65)])
+    angle = np.radians(turn)
+    spin = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    points = [tuple(point) for point in ((way @ spin + 200) * k).tolist()]
+    draw.line(points, BLUE, int(width * fine), joint="curve")
+    return np.array(
+        picture.convert("RGBa").resize((side, side), Image.Resampling.BOX).convert("RGBA")
+    )
+
+
+BLUE = (60, 120, 190)
+
+
+@pytest.mark.parametrize("scale", [1, 1.7])
+@pytest.mark.parametrize("width", range(3, 13))
+def test_a_stroke_of_one_colour_is_line_or_fill_as_a_whole(width: int, scale: float) -> None:
+    """At every slant, and the same at all of them."""
+    shares = []
+    for turn in range(0, 90, 15):
+        picture = zigzag(width, turn, scale)
+        stroke = (np.abs(picture[..., :3].astype(int) - BLUE) < 6).all(axis=2)
+        shares.append(float((decompose_drawing(picture).ink[stroke] > 0.5).mean()))
+    assert max(shares) < 0.02 or min(shares) > 0.98, shares

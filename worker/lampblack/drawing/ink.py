@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .coloured_strokes import whole_strokes
 from .cutout import Colours, Cutout
 from .mask import character_span, is_line_art
 from .morphology import (
@@ -22,6 +23,9 @@ _BRUSH = 0.02
 """Reach of the search for lines, as shares of the character's diagonal. Lines of any colour may
 be twice the first wide, lines of the main ink twice the second."""
 
+_WIDEST = 2.4
+"""Width of the widest line of another colour than the main ink, in hairlines."""
+
 _SHALLOWEST = 22
 """How much darker than both sides a line must be, in levels of luma."""
 
@@ -35,7 +39,8 @@ def find_ink(cutout: Cutout) -> Mask:
     A line is a valley of luma that a morphological closing fills: it is narrow and darker
     than both sides. The most common colour of the valleys is the main ink. All pixels of that
     colour are line, even with fill on one side or none (outlines, whiskers), except areas
-    wider than the drawing's own lines, which are filled with black. In line art every pixel
+    wider than the drawing's own lines, which are filled with black. A stroke of another flat colour
+    is line or fill as a whole. In line art every pixel
     darker than the bare paper is line, however faint or broken.
 
     Returns:
@@ -55,7 +60,8 @@ def find_ink(cutout: Cutout) -> Mask:
     main = _main_ink(colour, _valleys(light, mask, brush) | lines)
     if main is not None:
         alike = mask & _alike(colour, main)
-        lines = without_specks(lines & ~alike | alike & ~_wide_parts(alike, brush), 8)
+        coloured = whole_strokes(lines & ~alike, colour, mask & ~alike, _WIDEST * hairline)
+        lines = without_specks(coloured | alike & ~_wide_parts(alike, brush), 8)
         lines = without_specks(lines, 2 * hairline) | regions_holding(lines, alike & lines)
     outline = np.count_nonzero(mask & ~lowest(mask, 1))
     if _length(lines) > 0.25 * outline:
