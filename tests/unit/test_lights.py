@@ -60,7 +60,7 @@ def plain(value: float) -> LightPasses:
 def test_finals_trace_no_light_that_is_off_and_keep_it_for_when_it_is_on() -> None:
     traced: list[float] = []
 
-    def trace(asked: Scene, ambient: bool) -> Passes:
+    def trace(asked: Scene, ambient: bool, glows: object) -> Passes:
         traced.extend(light.x for light in asked.lights)
         return Passes(tuple(plain(light.x) for light in asked.lights), plain(0))
 

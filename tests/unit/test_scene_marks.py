@@ -55,7 +55,7 @@ class Counter:
     def __init__(self) -> None:
         self.traced = 0
 
-    def __call__(self, scene: Scene, ambient: bool) -> Passes:
+    def __call__(self, scene: Scene, ambient: bool, glows: object) -> Passes:
         self.traced += len(scene.lights) + ambient
         passes = LightPasses(*(np.zeros((1, 1, 3), np.float32) for _ in range(2)))
         return Passes(tuple(passes for _ in scene.lights), passes)

@@ -30,6 +30,9 @@ LightKind = Literal["lamp", "sun"]
 Brush = Literal["bump", "dent", "turn"]
 """What a stroke does to the surface: raise it, lower it, or turn it to where the stroke goes."""
 
+GlowName = Literal["emission", "painted"]
+"""Light that comes from surfaces: from emissive colours, or from light that was painted."""
+
 BodyChoice = Literal["auto", "own", "below", "flat"]
 """The surface of a layer: found by itself, a body of its own, a part of the body below, or flat
 on it."""

@@ -5,7 +5,7 @@ The command line, the farm and the live worker all use it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from types import TracebackType
 from typing import Protocol, Self
@@ -17,7 +17,7 @@ from PIL import Image
 
 from .cache import ArrayCache
 from .cache import digest as digest_of
-from .choices import DEFAULT_GRIDS, PipelineOptions
+from .choices import DEFAULT_GRIDS, GlowName, PipelineOptions
 from .composite import composite
 from .corrected import corrected_normals, corrections_of
 from .drawing import Drawing, DrawingPlanes
@@ -428,13 +428,14 @@ class Pipeline:
         drawing. ``surface`` is used if given: then one thread can trace while another prepares the
         next surface."""
 
-        def trace(asked: Scene, ambient: bool) -> Passes:
+        def trace(asked: Scene, ambient: bool, glows: Collection[GlowName]) -> Passes:
             stride = QUALITIES[asked.quality].mesh_stride
             found = surface or prepared.surface(asked, stride)
-            request = replace(frame_request(prepared.size, found, asked), ambient=ambient)
+            request = frame_request(prepared.size, found, asked)
+            request = replace(request, ambient=ambient, glows=glows)
             return self.renderer.render(request)
 
-        return self._light_passes.complete(prepared.layers, scene, trace)
+        return self._light_passes.complete(prepared.layers, scene, trace, prepared.glows(scene))
 
     def render(
         self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, TypeVar
@@ -9,11 +10,13 @@ from typing import Literal, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .choices import GlowName
 from .composite.byte_layers import ByteLayers, byte_layers_of
 from .composite.edges import edge_distance
 from .composite.resample import Box
 from .drawing import Drawing, Palette
-from .render import Surface, assign_materials, vertex_pixels
+from .materials import MaterialTable
+from .render import Surface, assign_materials, glowing_parts, painted_plane, vertex_pixels
 from .scene import Scene
 from .surface import Base, Relief, build_relief, joined_reliefs
 from .surface.overlap import Overlap
@@ -40,6 +43,8 @@ class PreparedDrawing:
             ``layers`` or ``mask``, or (h, w, 3) float16 when compact. None if not requested.
         box: box around the character, in pixels of the drawing.
         overlaps: where the height steps because one part is in front of another, longest first.
+        painted: (h, w, 3) float32, painted light over the whole drawing, scene-linear; None
+            if there is none.
         bodies: its parts, bottom first, if it has several. Each of them is lit as a surface of its
             own; height and normals are then those that are seen, of the topmost body.
     """
@@ -56,6 +61,7 @@ class PreparedDrawing:
     box: Box
     overlaps: tuple[Overlap, ...] = ()
     bodies: tuple[PreparedBody, ...] = ()
+    painted: NDArray[np.float32] | None = None
 
     @property
     def nbytes(self) -> int:
@@ -120,8 +126,33 @@ class PreparedDrawing:
         )
 
     def with_materials(self, relief: Relief, scene: Scene) -> Surface:
-        """``relief``, in pixels of the drawing, with the materials of ``scene``."""
-        return assign_materials(relief, *self.paint_at(relief), self.palette, scene)
+        """``relief``, in pixels of the drawing, with the materials of ``scene``, and all of it that
+        gives light."""
+        albedo, labels = self.paint_at(relief)
+        surface = assign_materials(relief, albedo, labels, self.palette, scene)
+        unit, emitters = max(self.size) / 2, dict(surface.emitters)
+        glow = MaterialTable.of(scene, self.palette.colours).glow
+        if glow.any():
+            part = glowing_parts(relief, surface.albedo * glow[labels][:, None], unit)
+            emitters |= {} if part is None else {"emission": part}
+        if self.painted is not None:
+            nearest = float(relief.vertices[:, 2].max(initial=0))
+            plane = painted_plane(
+                self.painted, self.size, nearest + scene.painted_light.height * unit
+            )
+            emitters |= {} if plane is None else {"painted": plane}
+        return replace(surface, emitters=emitters) if emitters else surface
+
+    def glows(self, scene: Scene) -> dict[GlowName, Hashable]:
+        """The light of ``scene`` on this drawing that comes from surfaces; by name, all that
+        shapes it beside the scene's ``render_key``."""
+        found: dict[GlowName, Hashable] = {}
+        if scene.brightest:
+            glow = MaterialTable.of(scene, self.palette.colours).glow
+            found |= {"emission": tuple(glow.tolist())} if glow.any() else {}
+        if self.painted is not None and scene.painted_light.power:
+            found["painted"] = scene.painted_light.height
+        return found
 
     def paint_at(self, relief: Relief) -> tuple[NDArray[np.float32], NDArray[np.int16]]:
         """The paint at each of the V vertices of ``relief``, that of their own body: (V, 3) sRGB

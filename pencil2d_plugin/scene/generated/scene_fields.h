@@ -69,6 +69,7 @@ template <class Fields> void describe(Fields& fields, AreaLight& value)
     text(fields, "colour", value.colour, 0, 7, patterns().colour, Need::Optional);
     fields.real("power", value.power, 0, 100, Need::Optional);
     fields.choice("kind", value.kind, LightKindChoices, Need::Optional);
+    fields.boolean("casts_shadow", value.castsShadow, Need::Optional);
     fields.text("name", value.name, 0, 80, Need::Optional);
     fields.boolean("on", value.on, Need::Optional);
     fields.boolean("solo", value.solo, Need::Optional);
@@ -83,6 +84,13 @@ template <class Fields> void describe(Fields& fields, Ambient& value)
     fields.rest(value.extra);
 }
 
+template <class Fields> void describe(Fields& fields, PaintedLight& value)
+{
+    fields.real("power", value.power, 0, 100, Need::Optional);
+    fields.real("height", value.height, 0.01, 4, Need::Optional);
+    fields.rest(value.extra);
+}
+
 template <class Fields> void describe(Fields& fields, Material& value)
 {
     fields.boolean("diffuse", value.diffuse, Need::Optional);
@@ -90,6 +98,7 @@ template <class Fields> void describe(Fields& fields, Material& value)
     fields.real("gloss", value.gloss, 0, 1, Need::Optional);
     fields.real("roughness", value.roughness, 0.02, 1, Need::Optional);
     fields.choice("look", value.look, LookChoiceChoices, Need::Optional);
+    fields.real("emission", value.emission, 0, 100, Need::Optional);
     fields.rest(value.extra);
 }
 
@@ -186,6 +195,7 @@ template <class Fields> void describe(Fields& fields, Scene& value)
     fields.object("canvas", value.canvas);
     fields.list("lights", value.lights, 8, Need::Optional);
     fields.object("ambient", value.ambient, Need::Optional);
+    fields.object("painted_light", value.paintedLight, Need::Optional);
     fields.map("materials", value.materials, 4096, patterns().colour, Need::Optional);
     fields.object("default_material", value.defaultMaterial, Need::Optional);
     fields.object("floor", value.floor);

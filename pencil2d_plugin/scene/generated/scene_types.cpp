@@ -21,9 +21,9 @@ bool operator==(const LightKey& a, const LightKey& b)
 
 bool operator==(const AreaLight& a, const AreaLight& b)
 {
-    return std::tie(a.x, a.y, a.z, a.size, a.colour, a.power, a.kind, a.name, a.on, a.solo, a.keys,
-                    a.extra) ==
-           std::tie(b.x, b.y, b.z, b.size, b.colour, b.power, b.kind, b.name, b.on, b.solo, b.keys, b.extra);
+    return std::tie(a.x, a.y, a.z, a.size, a.colour, a.power, a.kind, a.castsShadow, a.name, a.on, a.solo,
+                    a.keys, a.extra) == std::tie(b.x, b.y, b.z, b.size, b.colour, b.power, b.kind,
+                                                 b.castsShadow, b.name, b.on, b.solo, b.keys, b.extra);
 }
 
 bool operator==(const Ambient& a, const Ambient& b)
@@ -31,10 +31,15 @@ bool operator==(const Ambient& a, const Ambient& b)
     return std::tie(a.colour, a.strength, a.extra) == std::tie(b.colour, b.strength, b.extra);
 }
 
+bool operator==(const PaintedLight& a, const PaintedLight& b)
+{
+    return std::tie(a.power, a.height, a.extra) == std::tie(b.power, b.height, b.extra);
+}
+
 bool operator==(const Material& a, const Material& b)
 {
-    return std::tie(a.diffuse, a.glossy, a.gloss, a.roughness, a.look, a.extra) ==
-           std::tie(b.diffuse, b.glossy, b.gloss, b.roughness, b.look, b.extra);
+    return std::tie(a.diffuse, a.glossy, a.gloss, a.roughness, a.look, a.emission, a.extra) ==
+           std::tie(b.diffuse, b.glossy, b.gloss, b.roughness, b.look, b.emission, b.extra);
 }
 
 bool operator==(const FloorKey& a, const FloorKey& b)
@@ -95,10 +100,10 @@ bool operator==(const Depth& a, const Depth& b)
 
 bool operator==(const Scene& a, const Scene& b)
 {
-    return std::tie(a.canvas, a.lights, a.ambient, a.materials, a.defaultMaterial, a.floor, a.look, a.rim,
-                    a.reliefScale, a.depth, a.quality, a.version, a.extra) ==
-           std::tie(b.canvas, b.lights, b.ambient, b.materials, b.defaultMaterial, b.floor, b.look, b.rim,
-                    b.reliefScale, b.depth, b.quality, b.version, b.extra);
+    return std::tie(a.canvas, a.lights, a.ambient, a.paintedLight, a.materials, a.defaultMaterial, a.floor,
+                    a.look, a.rim, a.reliefScale, a.depth, a.quality, a.version, a.extra) ==
+           std::tie(b.canvas, b.lights, b.ambient, b.paintedLight, b.materials, b.defaultMaterial, b.floor,
+                    b.look, b.rim, b.reliefScale, b.depth, b.quality, b.version, b.extra);
 }
 
 bool operator==(const Rig& a, const Rig& b)

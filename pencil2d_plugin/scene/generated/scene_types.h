@@ -95,6 +95,8 @@ struct LightKey
 /// lights a white surface that faces it to exactly the drawn colour, wherever that is. The disk as it is seen
 /// from the middle of the canvas is the sun in the sky: only its direction and its angle count.
 ///
+/// Without `casts_shadow` it shines through the character, onto what faces it.
+///
 /// Only lights that are `on` shine, and only those with `solo` if one of them has it.
 ///
 /// With `keys`, in any order, it changes from each to the next, and holds before the first and after the
@@ -109,6 +111,7 @@ struct AreaLight
     QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
     double power = 1;                 ///< 0 to 100
     LightKind kind = LightKind::Lamp;
+    bool castsShadow = true;
     QString name = {}; ///< for people
     bool on = true;
     bool solo = false;
@@ -124,11 +127,25 @@ struct Ambient
     QJsonObject extra = {};
 };
 
+/// Light that the artist paints on a layer named Light: a plane above the character shines where the paint
+/// is, in its colour.
+///
+/// With `power` 1, what lies close beneath a broad stroke of opaque white is lit twice as bright as drawn.
+struct PaintedLight
+{
+    double power = 1;     ///< 0 to 100
+    double height = 0.12; ///< above the nearest point, half canvas sides, 0.01 to 4
+    QJsonObject extra = {};
+};
+
 /// What a flat colour is made of: diffuse, glossy, both, or neither (left as drawn).
 ///
 /// `gloss` is the amount of the glossy lobe, `roughness` its width (the paper's glossy exponent, the other
 /// way round: 0 is a mirror, 1 is satin). `look` is that of the scene, or the colour's own: smooth, or in
 /// tones.
+///
+/// `emission` is the light that the colour gives to everything, itself included: a flame, a window at night.
+/// Only the ratio of several emissions shapes the traced light.
 struct Material
 {
     bool diffuse = true;
@@ -136,6 +153,7 @@ struct Material
     double gloss = 0.5;     ///< 0 to 1
     double roughness = 0.3; ///< 0.02 to 1
     LookChoice look = LookChoice::Scene;
+    double emission = 0; ///< 0 to 100
     QJsonObject extra = {};
 };
 
@@ -271,6 +289,7 @@ struct Scene
     Canvas canvas = {};
     QVector<AreaLight> lights = {}; ///< 8 at most
     Ambient ambient = {};
+    PaintedLight paintedLight = {};
     QMap<QString, Material> materials = {};
     Material defaultMaterial = {};
     std::optional<Floor> floor = {};
@@ -301,6 +320,7 @@ bool operator==(const Canvas& a, const Canvas& b);
 bool operator==(const LightKey& a, const LightKey& b);
 bool operator==(const AreaLight& a, const AreaLight& b);
 bool operator==(const Ambient& a, const Ambient& b);
+bool operator==(const PaintedLight& a, const PaintedLight& b);
 bool operator==(const Material& a, const Material& b);
 bool operator==(const FloorKey& a, const FloorKey& b);
 bool operator==(const Floor& a, const Floor& b);

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import GlowName
 from ..colour import hex_linear
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene, shining
@@ -16,6 +18,11 @@ from .resample import Band, Box, enlarge
 
 VEIL = np.float32(0.1)
 """Share of the ambient light that glossy paint reflects: of a varnish seen from the front, 0.04."""
+EMITTED = 10.0
+"""Radiance of a white surface with an emission of 1, in that of one that is fully lit. It is more
+than what is seen of it: a small flame is to light what is around it, and keep its colour."""
+PAINT = 2.0
+"""Radiance of painted white light of power 1."""
 FAINT = np.float32(1e-3)  # avoids 0 / 0: without light there is no shadow
 
 Floats = NDArray[np.float32]
@@ -111,11 +118,17 @@ def weigh(passes: Passes, scene: Scene) -> list[tuple[Floats, LightPasses]]:
         for light, shines in zip(scene.lights, shining(scene.lights), strict=True)
     ]
     weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
-    return [
-        (weight, source)
-        for weight, source in zip(weights, (*passes.lights, passes.ambient), strict=True)
-        if weight.any()
-    ]
+    weighted = list(zip(weights, (*passes.lights, passes.ambient), strict=True))
+    for glow in get_args(GlowName):
+        if (found := getattr(passes, glow)) is not None:
+            weighted.append((glow_weight(glow, scene), found))
+    return [(weight, source) for weight, source in weighted if weight.any()]
+
+
+def glow_weight(glow: GlowName, scene: Scene) -> Floats:
+    """(3,), the weight of light that comes from surfaces, as it is traced."""
+    emitted, painted = scene.brightest * EMITTED, scene.painted_light.power * PAINT
+    return np.full(3, emitted if glow == "emission" else painted, np.float32)
 
 
 def add_up(weighted: Sequence[tuple[Floats, Floats]]) -> Floats:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import look_through
+from ..choices import GlowName
 from ..colour import linear
 from ..composite.float_kernel import composite_unrounded
 from ..composite.illumination import Illumination, weigh
@@ -71,8 +73,14 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
     count = max(LEAST_LIGHTS, len(scene.lights))
     names = [f"light{number}" for number in range(1, count + 1)] + ["ambient"]
     colour.update(dict.fromkeys(names, dark))
-    present = [*names[: len(passes.lights)], "ambient"]
-    for name, source in zip(present, (*passes.lights, passes.ambient), strict=True):
+    glows = {name: getattr(passes, name) for name in get_args(GlowName)}
+    present = dict(
+        zip(
+            [*names[: len(passes.lights)], "ambient"], (*passes.lights, passes.ambient), strict=True
+        )
+    )
+    present |= {name: source for name, source in glows.items() if source is not None}
+    for name, source in present.items():
         own = [(weight, light) for weight, light in sources if light is source]
         if own:
             light = character_light(drawing, scene, Illumination.sum_of(own, passes.ambient), band)

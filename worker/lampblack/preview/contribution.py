@@ -10,7 +10,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import GlowName
 from ..colour import hex_linear
+from ..composite.illumination import glow_weight
 from ..composite.resample import Box
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
@@ -26,14 +28,14 @@ Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class LightContribution:
-    """One light, or the ambient light, on the character or on the floor.
+    """One light, the ambient light or a glow, on the character or on the floor.
 
     Attributes:
         key: all that affects the traced light, except the amounts of gloss.
         amounts: amounts of gloss by swatch. They change the light little, so light with other
             amounts is shown until it is traced again.
         weight: (3,) colour times power, used only by the composite.
-        light: None is the ambient light.
+        light: None is the ambient light, or that of ``glow``.
         area: the traced part of the drawing, in its pixels.
     """
 
@@ -45,6 +47,12 @@ class LightContribution:
     area: Box
     canvas: Canvas
     floor: Floor | None
+    glow: GlowName | None = None
+
+    @property
+    def is_ambient(self) -> bool:
+        """Whether this is the ambient light."""
+        return self.light is None and self.glow is None
 
     @property
     def refinement(self) -> tuple[RefinementLevel, RefinementLevel]:
@@ -62,7 +70,7 @@ class LightContribution:
         size = max(1, round(width * scale)), max(1, round(height * scale))
         return Accumulate(
             self.canvas, self.area, size, self.light, self.floor, self.subject,
-            level.spp, first, count, resolve,
+            level.spp, first, count, resolve, self.glow,
         )  # fmt: skip
 
 
@@ -87,6 +95,7 @@ def contributions_of(
         if shines
     ]
     ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+    glows = drawing.glows(scene)
     found = []
     for subject in ("character", "floor") if floor else ("character",):
         area = character if subject == "character" else whole
@@ -100,6 +109,14 @@ def contributions_of(
             found.append(
                 LightContribution(
                     key, materials.amounts, weight, neutral, subject, area, scene.canvas, floor
+                )
+            )
+        for glow, shaped in glows.items():
+            own = (drawing.digest, drawing.detail, shared, subject, area, (glow, shaped))
+            weight = glow_weight(glow, scene)
+            found.append(
+                LightContribution(
+                    own, materials.amounts, weight, None, subject, area, scene.canvas, floor, glow
                 )
             )
     return tuple(found)
@@ -116,7 +133,8 @@ def surface_key(scene: Scene, drawing: PreparedDrawing) -> Hashable:
     bare = replace(scene, canvas=Canvas(1, 1), floor=None).render_key(
         materials=False, sampling=False
     )
-    return drawing.digest, drawing.detail, bare, materials.key, materials.amounts
+    glow = materials.glow.tolist()
+    return drawing.digest, drawing.detail, bare, materials.key, materials.amounts, tuple(glow)
 
 
 def character_area(drawing: PreparedDrawing, crop: Box) -> Box:

@@ -197,10 +197,10 @@ class Painter:
             (contribution, (contribution.weight, light.first, light.second))
             for contribution, light in zip(view.contributions, lights, strict=True)
         ]
-        on_character = [(c.light, found) for c, found in pairs if c.subject == "character"]
-        ambient = next((found for light, found in on_character if light is None), None)
+        on_character = [(c, found) for c, found in pairs if c.subject == "character"]
+        ambient = next((found for c, found in on_character if c.is_ambient), None)
         light = Illumination(
-            character=[found for light, found in on_character if light is not None],
+            character=[found for c, found in on_character if not c.is_ambient],
             ambient=ambient,
             openness=None if ambient is None else ambient[1],
             floor=[found for c, found in pairs if c.subject == "floor"],

@@ -1,6 +1,7 @@
 """Rendering: Cycles in a child process traces the light passes of a relief."""
 
 from .client import RenderChild
+from .emitters import Emitter, glowing_parts, painted_plane
 from .passes import LightPasses, Passes
 from .quality import QUALITIES, Quality, Sampling
 from .request import (
@@ -15,6 +16,7 @@ from .wire import Accumulate
 __all__ = [
     "QUALITIES",
     "Accumulate",
+    "Emitter",
     "LightPasses",
     "Passes",
     "Quality",
@@ -24,5 +26,7 @@ __all__ = [
     "Surface",
     "assign_materials",
     "frame_request",
+    "glowing_parts",
+    "painted_plane",
     "vertex_pixels",
 ]

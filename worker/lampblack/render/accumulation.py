@@ -51,7 +51,7 @@ class Accumulation:
     def _add(self, stage: Stage, job: Accumulate) -> None:
         stage.set_canvas(job.canvas)
         stage.set_floor(job.floor, job.canvas)
-        stage.set_source(job.light, job.canvas)
+        stage.set_source(job.light, job.canvas, job.glow)
         stage.set_samples(job.spp, job.first, job.count)
         stage.set_view(job.view, job.size, job.canvas)
         if job.subject == "character":

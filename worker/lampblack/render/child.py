@@ -10,6 +10,7 @@ import queue
 import sys
 import threading
 import traceback
+from collections.abc import Iterator
 from io import FileIO
 from typing import NoReturn
 
@@ -47,7 +48,8 @@ def main() -> NoReturn:
         message, arrays = inbox.get()
         try:
             if isinstance(message, Load):
-                stage.set_surface(*arrays)  # type: ignore[arg-type]
+                emitters = zip(message.emitters, _threes(arrays[5:]), strict=True)
+                stage.set_surface(arrays[:5], dict(emitters))
                 accumulation = Accumulation()
             elif isinstance(message, Accumulate):
                 send(answers, Traced(), accumulation.accumulate(stage, denoiser, message))
@@ -65,6 +67,11 @@ def main() -> NoReturn:
             os._exit(0)
         except Exception as error:
             send(answers, Failed(str(error), traceback.format_exc()))
+
+
+def _threes(arrays: list[Array]) -> Iterator[list[Array]]:
+    """Vertices, faces and radiance of each emitter."""
+    return (arrays[first : first + 3] for first in range(0, len(arrays), 3))
 
 
 def _private_stdout() -> FileIO:

@@ -19,6 +19,7 @@ from typing import IO, Literal, Self, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import GlowName
 from ..errors import RenderError
 from ..scene import Ambient, AreaLight
 from .passes import DARK, LightPasses, Passes
@@ -75,7 +76,7 @@ class RenderChild:
         self.close()
 
     def render(self, request: RenderRequest) -> Passes:
-        """Trace every light of ``request``, and the ambient light if it asks for that.
+        """Trace every light of ``request``, and the ambient light and emitters if it asks for them.
 
         The surface is sent only if it differs from the last one. Without ambient light, its pass
         is 1 x 1 zeros.
@@ -86,7 +87,9 @@ class RenderChild:
         with self._conversation(request.surface):
             lights = tuple(self._trace(request, light) for light in request.lights)
             ambient = self._trace(request, None) if request.ambient else DARK
-            return Passes(lights, ambient)
+            shining = [glow for glow in request.glows if glow in request.surface.emitters]
+            glows = {glow: self._trace(request, None, glow) for glow in shining}
+            return Passes(lights, ambient, **glows)
 
     def accumulate(self, surface: Surface, job: Accumulate) -> tuple[NDArray[np.float32], ...]:
         """Trace more samples of one source; see ``Accumulate``.
@@ -208,17 +211,21 @@ class RenderChild:
             surface.gloss,
             surface.roughness,
         ]
-        digest = hashlib.blake2b()
+        for emitter in surface.emitters.values():
+            arrays += emitter.arrays
+        digest = hashlib.blake2b(repr(tuple(surface.emitters)).encode())
         for array in arrays:
             digest.update(np.ascontiguousarray(array).data)
         if digest.digest() != self._loaded:
-            send(self._pipe("stdin"), Load(), arrays)
+            send(self._pipe("stdin"), Load(tuple(surface.emitters)), arrays)
             self._loaded = digest.digest()
         self._surface = surface
 
-    def _trace(self, request: RenderRequest, light: AreaLight | None) -> LightPasses:
+    def _trace(
+        self, request: RenderRequest, light: AreaLight | None, glow: GlowName | None = None
+    ) -> LightPasses:
         arrays = self._ask(
-            Trace(request.canvas, request.view, light, request.floor, request.quality)
+            Trace(request.canvas, request.view, light, request.floor, request.quality, glow)
         )
         return LightPasses(*arrays)
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Collection, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 
+from ..choices import GlowName
 from ..scene import Scene, shining
 from .passes import DARK, LightPasses, Passes
 
-Trace = Callable[[Scene, bool], Passes]
-"""Traces the lights of a scene and, if the flag says so, its ambient light."""
+Trace = Callable[[Scene, bool, Collection[GlowName]], Passes]
+"""Traces the lights of a scene, if the flag says so its ambient light, and these glows."""
+Glows = Mapping[GlowName, Hashable]
+"""By name, all that shapes the light of a glow beside what shapes that of a light."""
 
 
 @dataclass
@@ -20,23 +23,34 @@ class LightPassCache:
     _key: Hashable = None
     _lights: dict[Hashable, LightPasses] = field(default_factory=dict)
     _ambient: LightPasses | None = None
+    _glows: dict[tuple[GlowName, Hashable], LightPasses | None] = field(default_factory=dict)
 
-    def complete(self, drawing: object, scene: Scene, trace: Trace) -> Passes:
+    def complete(
+        self, drawing: object, scene: Scene, trace: Trace, glows: Glows | None = None
+    ) -> Passes:
         """The passes of ``scene`` on ``drawing``, which is compared by identity. ``trace`` is
         called for the lights that shine and are not in the cache; those that do not shine keep
         their light for later, or are dark."""
         key = scene.render_key()
         if drawing is not self._drawing or key != self._key:
-            self._lights, self._ambient = {}, None
+            self._lights, self._ambient, self._glows = {}, None, {}
         shown = zip(scene.lights, shining(scene.lights), strict=True)
         missing = {light.geometry: light for light, shines in shown if shines}
         missing = {where: light for where, light in missing.items() if where not in self._lights}
-        if missing or self._ambient is None:
+        wanted = list((glows or {}).items())
+        dark = [glow for glow in wanted if glow not in self._glows]
+        if missing or dark or self._ambient is None:
             asked = replace(scene, lights=tuple(missing.values()))
-            found = trace(asked, self._ambient is None)
+            found = trace(asked, self._ambient is None, [name for name, _ in dark])
             self._lights |= dict(zip(missing, found.lights, strict=True))
             self._ambient = self._ambient or found.ambient
+            self._glows |= {glow: getattr(found, glow[0]) for glow in dark}
         self._drawing, self._key = drawing, key
         places = [light.geometry for light in scene.lights]
         self._lights = {where: self._lights[where] for where in places if where in self._lights}
-        return Passes(tuple(self._lights.get(where, DARK) for where in places), self._ambient)
+        self._glows = {glow: self._glows[glow] for glow in wanted}
+        return Passes(
+            tuple(self._lights.get(where, DARK) for where in places),
+            self._ambient,
+            **{glow[0]: self._glows[glow] for glow in wanted},
+        )

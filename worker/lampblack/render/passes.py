@@ -36,8 +36,16 @@ DARK = LightPasses(*(np.zeros((1, 1, 3), np.float32) for _ in range(2)))
 
 @dataclass(frozen=True)
 class Passes:
-    """One frame's light: ``lights[i]`` belongs to ``scene.lights[i]``, and is dark where that does
-    not shine."""
+    """One frame's light.
+
+    Attributes:
+        lights: ``lights[i]`` belongs to ``scene.lights[i]``, and is dark where that does not shine.
+        ambient: the ambient light of strength 1.
+        emission: emissive colours, the brightest of them with an emission of 1; None without any.
+        painted: painted light of power 1; None without any.
+    """
 
     lights: tuple[LightPasses, ...]
     ambient: LightPasses
+    emission: LightPasses | None = None
+    painted: LightPasses | None = None

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ..choices import GlowName
 from ..colour import linear
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
 from ..scene import AreaLight, Canvas, Floor, Scene
 from ..surface.relief import Relief
+from .emitters import Emitter
 from .quality import QUALITIES, Quality
 
 
@@ -26,12 +29,14 @@ class Surface:
             for unlit and glossy-only colours.
         gloss: (V,) float32 in 0..1, amount of the glossy lobe.
         roughness: (V,) float32 in 0.02..1.
+        emitters: meshes that give light, by name.
     """
 
     relief: Relief
     albedo: NDArray[np.float32]
     gloss: NDArray[np.float32]
     roughness: NDArray[np.float32]
+    emitters: Mapping[GlowName, Emitter] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -47,6 +52,7 @@ class RenderRequest:
         floor: the shadow-catching floor, or None.
         rect: part of the canvas to trace, (x, y, width, height) in canvas pixels; None for all.
         quality: resolution and samples.
+        glows: trace the light of these emitters of the surface as well.
     """
 
     surface: Surface
@@ -56,6 +62,7 @@ class RenderRequest:
     floor: Floor | None = None
     rect: tuple[float, float, float, float] | None = None
     quality: Quality = QUALITIES["low"]
+    glows: Collection[GlowName] = ()
 
     @property
     def view(self) -> tuple[float, float, float, float]:

@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import GlowName
 from ..scene import AreaLight, Canvas, Floor
+from .glow import add_emitter, remove_emitter
 from .quality import Sampling
 
 CAMERA_HEIGHT = 60.0
@@ -32,7 +35,7 @@ PASSES = (
 )
 
 Floats = NDArray[np.float32]
-SurfaceArrays = tuple[Floats, NDArray[np.int32], Floats, Floats, Floats]
+Arrays = Sequence[Any]
 
 
 class Stage:
@@ -42,7 +45,11 @@ class Stage:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.scene: Any = bpy.context.scene
         self._set_engine()
-        self._surface: SurfaceArrays | None = None
+        self._surface: Arrays | None = None
+        self._emitters: Mapping[GlowName, Arrays] = {}
+        self._glows: dict[GlowName, Any] = {}
+        self._glow: GlowName | None = None
+        self._shadows = True
         self._canvas: Canvas | None = None
         self._character = self._add("figure", bpy.data.meshes.new("figure"))
         # A mesh with two users has its own BVH, which then survives when a light moves.
@@ -70,27 +77,27 @@ class Stage:
         self.scene.world.cycles.sampling_method = "NONE"
         self._ambient = _ambient_strength(self.scene.world.node_tree)
 
-    def set_surface(
-        self,
-        vertices: Floats,
-        faces: NDArray[np.int32],
-        albedo: Floats,
-        gloss: Floats,
-        roughness: Floats,
-    ) -> None:
-        """Set the relief, in canvas pixels. ``set_canvas`` builds its mesh."""
-        self._surface = vertices, faces, albedo, gloss, roughness
+    def set_surface(self, relief: Arrays, emitters: Mapping[GlowName, Arrays]) -> None:
+        """Set the relief and the emitters, in canvas pixels, as ``wire.Load`` has their arrays.
+        ``set_canvas`` builds their meshes."""
+        self._surface, self._emitters = relief, emitters
         self._canvas = None
 
     def set_canvas(self, canvas: Canvas) -> None:
         """Build the relief's mesh for ``canvas``, unless it is there already."""
         if canvas == self._canvas or self._surface is None:
             return
-        old, mesh = self._character.data, _character_mesh(*self._surface, canvas)
+        old, mesh = self._character.data, _character_mesh(self._surface, canvas)
         self._character.data = self._twin.data = mesh
         for material in old.materials:
             bpy.data.materials.remove(material)
         bpy.data.meshes.remove(old)
+        for glow in self._glows.values():
+            remove_emitter(glow)
+        self._glows = {
+            name: add_emitter(self._add, name, _to_blender(arrays[0], canvas), *arrays[1:])
+            for name, arrays in self._emitters.items()
+        }
         self._canvas = canvas
 
     def set_floor(self, floor: Floor | None, canvas: Canvas) -> None:
@@ -124,11 +131,18 @@ class Stage:
         aspect = (width / size[0]) / (height / size[1])
         render.pixel_aspect_x, render.pixel_aspect_y = max(1, aspect), max(1, 1 / aspect)
 
-    def set_source(self, light: AreaLight | None, canvas: Canvas) -> None:
-        """Turn on one source: a white area light or sun of power 1, or the ambient light."""
+    def set_source(
+        self, light: AreaLight | None, canvas: Canvas, glow: GlowName | None = None
+    ) -> None:
+        """Turn on one source: a white area light or sun of power 1, an emitter, or the ambient
+        light."""
+        self._shadows = light is None or light.casts_shadow
+        for name, emitter in self._glows.items():
+            emitter.hide_render = name != glow
+        self._glow = glow
         self._lamp.hide_render = light is None or light.kind != "lamp"
         self._sun.hide_render = light is None or light.kind != "sun"
-        self._ambient.default_value = float(light is None)
+        self._ambient.default_value = float(light is None and glow is None)
         if light is None:
             return
         at = _to_blender(np.array([[light.x, light.y, light.z]], np.float32), canvas)[0]
@@ -148,9 +162,10 @@ class Stage:
         The floor never casts a shadow. When the character is rendered, the floor is lowered below
         all of it, so that a character that extends below the floor's line has no seam.
         """
-        _set_visible(
-            self._character, {"character": "cdgs", "floor": "dgs", "bare floor": ""}[subject]
-        )
+        rays = {"character": "cdgs", "floor": "dgs", "bare floor": ""}[subject]
+        _set_visible(self._character, rays if self._shadows else rays.replace("s", ""))
+        if self._glow == "emission" and self._glow in self._glows:  # it belongs to the character
+            self._glows[self._glow].hide_render = subject == "bare floor"
         _set_visible(self._floor, "dg" if subject == "character" else "cdg")
         self._floor.location = self._floor_places["sunk" if subject == "character" else "standing"]
 
@@ -243,15 +258,9 @@ def _set_visible(thing: Any, rays: str) -> None:
     thing.visible_shadow = "s" in rays
 
 
-def _character_mesh(
-    vertices: Floats,
-    faces: NDArray[np.int32],
-    albedo: Floats,
-    gloss: Floats,
-    roughness: Floats,
-    canvas: Canvas,
-) -> Any:
+def _character_mesh(surface: Arrays, canvas: Canvas) -> Any:
     """The relief in Blender's frame, smooth shaded, with its material per vertex."""
+    vertices, faces, albedo, gloss, roughness = surface
     mesh = bpy.data.meshes.new("figure")
     if not len(vertices):
         return mesh

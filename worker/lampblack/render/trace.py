@@ -28,7 +28,7 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     """
     stage.set_canvas(job.canvas)
     stage.set_floor(job.floor, job.canvas)
-    stage.set_source(job.light, job.canvas)
+    stage.set_source(job.light, job.canvas, job.glow)
     sampling = job.quality.ambient if job.light is None else job.quality.light
     stage.set_sampling(sampling)
     stage.set_view(job.view, sampling.size(*job.view[2:]), job.canvas)

@@ -17,6 +17,7 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
+from ..choices import GlowName
 from ..scene import Ambient, AreaLight, Canvas, Floor
 from .quality import Quality
 
@@ -31,18 +32,22 @@ class WireError(Exception):
 
 
 class Load(msgspec.Struct, tag=True):
-    """Replace the surface. Arrays: vertices, faces, albedo, gloss, roughness."""
+    """Replace the surface. Arrays: vertices, faces, albedo, gloss, roughness; then vertices, faces
+    and radiance of each of ``emitters``."""
+
+    emitters: tuple[GlowName, ...] = ()
 
 
 class Trace(msgspec.Struct, tag=True):
-    """Trace one source: ``light``, or the ambient light if that is None. Answered by Traced or
-    Failed."""
+    """Trace one source: ``light``, or the emitter ``glow``, or the ambient light if both are None.
+    Answered by Traced or Failed."""
 
     canvas: Canvas
     view: tuple[float, float, float, float]
     light: AreaLight | None
     floor: Floor | None
     quality: Quality
+    glow: GlowName | None = None
 
 
 class Accumulate(msgspec.Struct, tag=True):
@@ -62,6 +67,7 @@ class Accumulate(msgspec.Struct, tag=True):
     first: int
     count: int
     resolve: bool
+    glow: GlowName | None = None
 
 
 class SaveBlend(msgspec.Struct, tag=True):

@@ -28,7 +28,7 @@ from .document import (
     scene_schema,
 )
 from .floor import Floor, FloorKey
-from .lights import Ambient, AreaLight, LightKey, shining
+from .lights import Ambient, AreaLight, LightKey, PaintedLight, shining
 from .look import MAX_TONES, Look, Rim
 from .materials import Material
 from .rig import Rig
@@ -60,6 +60,7 @@ __all__ = [
     "LightKey",
     "Look",
     "Material",
+    "PaintedLight",
     "Rig",
     "Rim",
     "Scene",

@@ -40,6 +40,8 @@ class AreaLight:
     is. The disk as it is seen from the middle of the canvas is the sun in the sky: only its
     direction and its angle count.
 
+    Without ``casts_shadow`` it shines through the character, onto what faces it.
+
     Only lights that are ``on`` shine, and only those with ``solo`` if one of them has it.
 
     With ``keys``, in any order, it changes from each to the next, and holds before the first and
@@ -55,6 +57,7 @@ class AreaLight:
     colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
     power: Annotated[Strength, Affects.COMPOSITE] = 1.0
     kind: LightKind = "lamp"
+    casts_shadow: bool = True
     name: Annotated[Title, Affects.NOTHING] = ""
     on: Annotated[bool, Affects.COMPOSITE] = True
     solo: Annotated[bool, Affects.COMPOSITE] = False
@@ -82,6 +85,22 @@ def shining(lights: Sequence[AreaLight]) -> list[bool]:
     """For each of ``lights``, whether it shines among the others."""
     alone = any(light.on and light.solo for light in lights)
     return [light.on and (light.solo or not alone) for light in lights]
+
+
+@dataclass(frozen=True)
+class PaintedLight:
+    """Light that the artist paints on a layer named Light: a plane above the character shines
+    where the paint is, in its colour.
+
+    With ``power`` 1, what lies close beneath a broad stroke of opaque white is lit twice as
+    bright as drawn.
+    """
+
+    power: Annotated[Strength, Affects.COMPOSITE] = 1.0
+    height: Annotated[
+        float, Meta(ge=0.01, le=4, description="above the nearest point, half canvas sides")
+    ] = 0.12
+    extra: Extra = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from msgspec import Meta
 
 from ..affects import Affects
 from ..choices import LookChoice
-from .values import Extra, Unit
+from .values import Extra, Strength, Unit
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,9 @@ class Material:
     ``gloss`` is the amount of the glossy lobe, ``roughness`` its width (the paper's glossy
     exponent, the other way round: 0 is a mirror, 1 is satin). ``look`` is that of the scene, or the
     colour's own: smooth, or in tones.
+
+    ``emission`` is the light that the colour gives to everything, itself included: a flame, a
+    window at night. Only the ratio of several emissions shapes the traced light.
     """
 
     diffuse: Annotated[bool, Affects.COMPOSITE] = True
@@ -26,4 +29,5 @@ class Material:
     gloss: Annotated[Unit, Affects.GLOSS] = 0.5
     roughness: Annotated[float, Meta(ge=0.02, le=1)] = 0.3
     look: Annotated[LookChoice, Affects.COMPOSITE] = "scene"
+    emission: Annotated[Strength, Affects.COMPOSITE] = 0.0
     extra: Extra = field(default_factory=dict)

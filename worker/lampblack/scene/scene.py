@@ -12,7 +12,7 @@ from ..affects import Affects, traced_part
 from ..choices import QualityName
 from .depth import Depth
 from .floor import Floor
-from .lights import Ambient, AreaLight
+from .lights import Ambient, AreaLight, PaintedLight
 from .look import Look, Rim
 from .materials import Material
 from .values import Colour, Extra
@@ -43,6 +43,7 @@ class Scene:
     canvas: Canvas
     lights: Annotated[tuple[AreaLight, ...], Meta(max_length=MAX_LIGHTS)] = ()
     ambient: Ambient = field(default_factory=Ambient)
+    painted_light: PaintedLight = field(default_factory=PaintedLight)
     materials: Annotated[dict[Colour, Material], Meta(max_length=4096)] = field(
         default_factory=dict
     )
@@ -59,6 +60,12 @@ class Scene:
     def material(self, colour: str) -> Material:
         """The material of the flat colour ``#rrggbb``."""
         return self.materials.get(colour, self.default_material)
+
+    @property
+    def brightest(self) -> float:
+        """The largest emission of its materials."""
+        worn = (self.default_material, *self.materials.values())
+        return max(material.emission for material in worn)
 
     def render_key(self, *, materials: bool = True, sampling: bool = True) -> Hashable:
         """All that shapes the traced light, but for the area lights, each of which has a
