@@ -24,6 +24,7 @@ from lampblack.composite.apart import (
     byte_stages,
     float_stages,
 )
+from lampblack.composite.edges import edge_distance
 from lampblack.drawing import save_picture
 from lampblack.drawing.drawing import Drawing
 from lampblack.errors import LampblackError, LampblackWarning
@@ -34,7 +35,7 @@ from lampblack.finals.targets import Targets
 from lampblack.project import read_project
 from lampblack.project.shot import ProjectShot
 from lampblack.render import LightPasses, Passes
-from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Material, Scene
+from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Look, Material, Rim, Scene
 from support.command_line import Run, files
 from support.drawings import draw_ball, draw_capsule
 from unit.test_composite import BACKGROUNDS, RED, make_drawing
@@ -179,6 +180,23 @@ def test_each_layer_has_what_its_name_says() -> None:
     dull = replace(scene, materials={})
     without = stack(apart_bytes(byte_stages(drawing, passes, scene)), leave="highlight")
     assert difference(without, composite(drawing, passes, dull)) <= 1
+
+
+@pytest.mark.parametrize("ground", GROUNDS)
+def test_tones_and_a_rim_are_taken_apart_too(ground: tuple[int, int, int, int, str]) -> None:
+    drawing, (passes, scene) = drawn(ground), lit((0.4, 0.5, 0.7), "#ff8040")
+    look = Look(tones=(0.4, 0.7), shade_strength=0.6, ink_light=0.5, contact=0.5)
+    scene = replace(scene, look=look, rim=Rim(width=4, colour="#80c0ff", away=0))
+    edges = edge_distance(drawing.mask, drawing.ink)
+    stages = byte_stages(drawing, passes, scene, edges)
+    baked = composite(drawing, passes, scene, edges=edges)
+    layers = apart_bytes(stages)
+    assert difference(stack(layers), baked) <= 1
+    if ground[3] == 255:
+        rim = {name: layer for name, _, layer in layers}["rim"]
+        assert rim[..., 3].any()
+        without = composite(drawing, passes, replace(scene, rim=None), edges=edges)
+        assert difference(stack(layers, leave="rim"), without) <= 1
 
 
 def test_layers_are_right_in_pillow() -> None:
