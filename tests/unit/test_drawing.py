@@ -421,10 +421,10 @@ def zigzag(width: float, turn: float, scale: float) -> NDArray[np.uint8]:
 BLUE = (60, 120, 190)
 
 
-@pytest.mark.parametrize("scale", [1, 1.7])
+@pytest.mark.parametrize("scale", [1, 1.5])
 @pytest.mark.parametrize("width", range(3, 13))
 def test_a_stroke_of_one_colour_is_line_or_fill_as_a_whole(width: int, scale: float) -> None:
-    """At every slant, and the same at all of them."""
+    """At every slant, and the same at all of them; a width is measured to about 0.3 pixels."""
     shares = []
     for turn in range(0, 90, 15):
         picture = zigzag(width, turn, scale)

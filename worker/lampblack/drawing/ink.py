@@ -23,7 +23,7 @@ _BRUSH = 0.02
 """Reach of the search for lines, as shares of the character's diagonal. Lines of any colour may
 be twice the first wide, lines of the main ink twice the second."""
 
-_WIDEST = 2.4
+_WIDEST = 2.45
 """Width of the widest line of another colour than the main ink, in hairlines."""
 
 _SHALLOWEST = 22
