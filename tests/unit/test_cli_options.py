@@ -102,6 +102,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         output=f"lit {random.randint(0, 9)}",
         scene=random.choice(texts),
         rig=random.choice(texts),
+        look=random.choice(texts),
         lights=tuple(few()),
         floor=random.uniform(-9, 9),
         quality=random.choice(get_args(QualityName)),

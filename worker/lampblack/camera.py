@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from .looks import scaled_rim
 from .scene import AreaLight, Canvas, DepthHint, DepthStroke, Drawn, Scene
 
 Affine = tuple[float, float, float, float, float, float]
@@ -54,9 +55,7 @@ def scene_in_view(scene: Scene, camera: Affine, size: tuple[int, int]) -> Scene:
         hints=tuple(hint_in_view(hint, camera) for hint in scene.depth.hints),
         strokes=tuple(hint_in_view(stroke, camera) for stroke in scene.depth.strokes),
     )
-    rim = scene.rim
-    if rim is not None:
-        rim = replace(rim, width=min(1000.0, max(0.25, rim.width * scale)))
+    rim = scaled_rim(scene.rim, scale)
     return replace(scene, canvas=canvas, lights=lights, floor=floor, depth=depth, rim=rim)
 
 

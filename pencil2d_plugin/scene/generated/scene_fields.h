@@ -214,6 +214,18 @@ template <class Fields> void describe(Fields& fields, Rig& value)
     fields.text("name", value.name, 0, 80, Need::Optional);
     fields.list("lights", value.lights, 8, Need::Optional);
     fields.object("ambient", value.ambient, Need::Optional);
+    fields.object("look", value.look);
+    fields.object("rim", value.rim);
+    fields.integer("version", value.version, 1, 1, Need::Optional);
+    fields.rest(value.extra);
+}
+
+template <class Fields> void describe(Fields& fields, Style& value)
+{
+    fields.object("canvas", value.canvas);
+    fields.text("name", value.name, 0, 80, Need::Optional);
+    fields.object("look", value.look, Need::Optional);
+    fields.object("rim", value.rim);
     fields.integer("version", value.version, 1, 1, Need::Optional);
     fields.rest(value.extra);
 }

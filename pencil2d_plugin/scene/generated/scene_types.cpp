@@ -108,8 +108,14 @@ bool operator==(const Scene& a, const Scene& b)
 
 bool operator==(const Rig& a, const Rig& b)
 {
-    return std::tie(a.canvas, a.name, a.lights, a.ambient, a.version, a.extra) ==
-           std::tie(b.canvas, b.name, b.lights, b.ambient, b.version, b.extra);
+    return std::tie(a.canvas, a.name, a.lights, a.ambient, a.look, a.rim, a.version, a.extra) ==
+           std::tie(b.canvas, b.name, b.lights, b.ambient, b.look, b.rim, b.version, b.extra);
+}
+
+bool operator==(const Style& a, const Style& b)
+{
+    return std::tie(a.canvas, a.name, a.look, a.rim, a.version, a.extra) ==
+           std::tie(b.canvas, b.name, b.look, b.rim, b.version, b.extra);
 }
 
 } // namespace lampblack

@@ -305,13 +305,30 @@ struct Scene
 /// The light of a scene without what it falls on, to be used again in other shots.
 ///
 /// Places are in pixels of the rig's own `canvas`. They are moved to another canvas, or to the box around a
-/// figure, with the middle on the middle and the longer side as long as the longer side. See `rigs/`.
+/// figure, with the middle on the middle and the longer side as long as the longer side. See `rigs/`. With a
+/// `look`, that and the `rim` replace those of the scene too.
 struct Rig
 {
     Canvas canvas = {};
     QString name = {};              ///< for people
     QVector<AreaLight> lights = {}; ///< 8 at most
     Ambient ambient = {};
+    std::optional<Look> look = {};
+    std::optional<Rim> rim = {};
+    int version = 1; ///< 1 to 1
+    QJsonObject extra = {};
+};
+
+/// How the light of a scene is shown, to be used again in other shots.
+///
+/// The width of the rim is in pixels of the style's own `canvas`. On another canvas, the longer side is as
+/// long as the longer side. See `looks/`.
+struct Style
+{
+    Canvas canvas = {};
+    QString name = {}; ///< for people
+    Look look = {};
+    std::optional<Rim> rim = {};
     int version = 1; ///< 1 to 1
     QJsonObject extra = {};
 };
@@ -334,5 +351,6 @@ bool operator==(const DepthColour& a, const DepthColour& b);
 bool operator==(const Depth& a, const Depth& b);
 bool operator==(const Scene& a, const Scene& b);
 bool operator==(const Rig& a, const Rig& b);
+bool operator==(const Style& a, const Style& b);
 
 } // namespace lampblack

@@ -47,6 +47,12 @@ OPTIONS: dict[str, Any] = {
         help="Rig: key, rim, three-point, sunset, moon, under-light, lantern, or a file. "
         "Replaces the scene's lights and ambient light.",
     ),
+    "look": typer.Option(
+        "--look",
+        metavar="NAME|FILE",
+        help="Look: smooth, soft-cel, hard-cel, two-tone-rim, or a file. "
+        "Replaces the scene's look and rim.",
+    ),
     "lights": typer.Option(
         "--light",
         metavar="X,Y,Z",

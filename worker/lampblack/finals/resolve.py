@@ -9,6 +9,7 @@ from pathlib import Path
 from ..choices import PipelineOptions
 from ..drawing import find_frames, load_picture, parse_frames, select_frames
 from ..errors import LampblackError
+from ..looks import find_style
 from ..normals.temporal.neighbours import REACH
 from ..project import is_project, read_project
 from ..project.shot import ProjectShot
@@ -95,6 +96,7 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
     overrides = SceneOverrides(
         scene,
         None if settings.rig is None else find_rig(settings.rig),
+        None if settings.look is None else find_style(settings.look),
         settings.lights,
         settings.floor,
         settings.quality,

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..choices import BodyChoice, QualityName
 from ..errors import SceneError
+from ..looks import with_style
 from ..rigs import with_rig
 from ..scene import (
     MAX_LIGHTS,
@@ -18,6 +19,7 @@ from ..scene import (
     LayerBody,
     Rig,
     Scene,
+    Style,
     decode_depth,
     decode_scene,
     default_light,
@@ -32,6 +34,7 @@ class SceneOverrides:
     Attributes:
         file: the scene of the scene file, if there is one.
         rig: in place of the scene's lights and ambient light.
+        style: in place of the scene's look and rim.
         lights: ``X,Y,Z`` each, in place of the scene's lights.
         floor: canvas line of a floor. quality: a preset.
         depth: what the artist says of the depth.
@@ -40,6 +43,7 @@ class SceneOverrides:
 
     file: Scene | None = None
     rig: Rig | None = None
+    style: Style | None = None
     lights: Sequence[str] = ()
     floor: float | None = None
     quality: QualityName | None = None
@@ -56,6 +60,8 @@ class SceneOverrides:
         scene = self.file or default_scene(canvas.width, canvas.height)
         if self.rig is not None:
             scene = with_rig(scene, self.rig)
+        if self.style is not None:
+            scene = with_style(scene, self.style)
         if self.lights:
             scene = replace(scene, lights=lights_at(self.lights, canvas))
         if self.floor is not None:

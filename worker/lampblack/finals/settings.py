@@ -6,6 +6,7 @@ from pathlib import Path
 
 import msgspec
 
+from .. import looks
 from ..choices import (
     DEFAULT_GRIDS,
     ApartKind,
@@ -27,6 +28,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         output: a folder, or a pattern of file names.
         scene: scene file; None is the file next to a project, or the default scene.
         rig: name or file of a rig, in place of the scene's lights and ambient light.
+        look: name or file of a style, in place of the scene's look and rim.
         lights: ``X,Y,Z`` each, in canvas pixels, in place of the scene's lights.
         floor: canvas line of a floor, in place of the scene's floor.
         quality: preset, in place of the scene's.
@@ -49,6 +51,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     output: str
     scene: str | None = None
     rig: str | None = None
+    look: str | None = None
     lights: tuple[str, ...] = ()
     floor: float | None = None
     quality: QualityName | None = None
@@ -77,6 +80,8 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         }
         if self.rig is not None and preset_name(self.rig) is None:
             found["rig"] = str(Path(self.rig).absolute())
+        if self.look is not None and looks.preset_name(self.look) is None:
+            found["look"] = str(Path(self.look).absolute())
         inputs = tuple(str(Path(path).absolute()) for path in self.inputs)
         return msgspec.structs.replace(self, inputs=inputs, **found)
 

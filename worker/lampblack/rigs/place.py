@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from ..looks import scaled_rim
 from ..scene import AreaLight, Canvas, LightKey, Rig, Scene
 
 Lit = TypeVar("Lit", AreaLight, LightKey)
@@ -33,7 +34,10 @@ def with_rig(scene: Scene, rig: Rig, box: Box | None = None) -> Scene:
     place = _Place(
         rig.canvas, canvas, x + width / 2, y + height / 2, unit / rig.canvas.default_height
     )
-    return replace(scene, lights=tuple(map(place.light, rig.lights)), ambient=rig.ambient)
+    lit = replace(scene, lights=tuple(map(place.light, rig.lights)), ambient=rig.ambient)
+    if rig.look is None:
+        return lit
+    return replace(lit, look=rig.look, rim=scaled_rim(rig.rim, place.scale))
 
 
 @dataclass(frozen=True)

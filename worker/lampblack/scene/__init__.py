@@ -22,8 +22,10 @@ from .document import (
     decode_depth,
     decode_rig,
     decode_scene,
+    decode_style,
     encode_rig,
     encode_scene,
+    encode_style,
     normalize_schema,
     scene_schema,
 )
@@ -33,6 +35,7 @@ from .look import MAX_TONES, Look, Rim
 from .materials import Material
 from .rig import Rig
 from .scene import MAX_LIGHTS, VERSION, Canvas, Scene, default_light, default_scene
+from .style import Style
 from .values import MAX_KEYS, Colour
 
 __all__ = [
@@ -64,13 +67,16 @@ __all__ = [
     "Rig",
     "Rim",
     "Scene",
+    "Style",
     "decode_depth",
     "decode_rig",
     "decode_scene",
+    "decode_style",
     "default_light",
     "default_scene",
     "encode_rig",
     "encode_scene",
+    "encode_style",
     "normalize_schema",
     "scene_schema",
     "shining",

@@ -14,8 +14,11 @@ from ..errors import SceneError
 from .depth import Depth
 from .rig import Rig
 from .scene import VERSION, Scene
+from .style import Style
 
 MAX_JSON_BYTES = 1 << 20
+
+Node = TypeVar("Node")
 
 
 def encode_scene(scene: Scene) -> bytes:
@@ -55,18 +58,36 @@ def decode_rig(data: bytes) -> Rig:
     Raises:
         SceneError: not JSON, too large, of another version, or a value out of range.
     """
-    tree = _json_object(data, "rig")
+    return _decode_reusable(data, Rig, "rig")
+
+
+def encode_style(style: Style) -> bytes:
+    """The style as indented JSON, unknown fields included."""
+    return msgspec.json.format(msgspec.json.encode(_to_builtins(style)), indent=2) + b"\n"
+
+
+def decode_style(data: bytes) -> Style:
+    """Read a style from JSON.
+
+    Raises:
+        SceneError: not JSON, too large, of another version, or a value out of range.
+    """
+    return _decode_reusable(data, Style, "look")
+
+
+def _decode_reusable(data: bytes, kind: type[Node], what: str) -> Node:
+    tree = _json_object(data, what)
     version = tree.get("version", VERSION)
     if version != VERSION:
         raise SceneError(
-            f"The rig has version {version!r}; this Lampblack reads version {VERSION}.",
-            "Update Lampblack, or save the rig again: lampblack rig save.",
+            f"The {what} has version {version!r}; this Lampblack reads version {VERSION}.",
+            f"Update Lampblack, or save the {what} again.",
         )
     try:
-        return _from_builtins(tree, Rig)
+        return _from_builtins(tree, kind)
     except (msgspec.ValidationError, RecursionError) as error:
         raise SceneError(
-            "The rig has a field that cannot be used.", "Correct it and try again.", str(error)
+            f"The {what} has a field that cannot be used.", "Correct it and try again.", str(error)
         ) from error
 
 
@@ -125,9 +146,6 @@ def normalize_schema(definition: dict[str, Any]) -> None:
     for member in definition.get("properties", {}).values():
         if member.get("default") == {}:
             del member["default"]
-
-
-Node = TypeVar("Node")
 
 
 def _from_builtins(tree: Mapping[str, Any], kind: type[Node]) -> Node:

@@ -8,6 +8,7 @@ from typing import Annotated
 from msgspec import Meta
 
 from .lights import Ambient, AreaLight
+from .look import Look, Rim
 from .scene import MAX_LIGHTS, VERSION, Canvas
 from .values import Extra, Title
 
@@ -18,12 +19,14 @@ class Rig:
 
     Places are in pixels of the rig's own ``canvas``. They are moved to another canvas, or to the
     box around a figure, with the middle on the middle and the longer side as long as the longer
-    side. See ``rigs/``.
+    side. See ``rigs/``. With a ``look``, that and the ``rim`` replace those of the scene too.
     """
 
     canvas: Canvas
     name: Title = ""
     lights: Annotated[tuple[AreaLight, ...], Meta(max_length=MAX_LIGHTS)] = ()
     ambient: Ambient = field(default_factory=Ambient)
+    look: Look | None = None
+    rim: Rim | None = None
     version: Annotated[int, Meta(ge=VERSION, le=VERSION)] = VERSION
     extra: Extra = field(default_factory=dict)

@@ -6,7 +6,8 @@ from typing import get_args
 
 from ... import choices as words
 from ... import scene, timeline
-from ...scene import Colour, Rig, Scene
+from ...looks import PRESETS, preset
+from ...scene import Colour, Rig, Scene, Style, encode_style
 from . import declarations as cpp
 from .fields import fields_of, structs_in, unwrapped
 from .members import Form, Translator
@@ -17,7 +18,7 @@ NAMESPACE = "lampblack"
 CONSTANTS = ("MAX_LIGHTS", "MAX_KEYS", "MAX_JSON_BYTES")
 
 COLOUR = Form(Colour, "QColor", lambda colour: f"QColor(0x{colour[1:]})")
-STRUCTS = structs_in([Scene, Rig])
+STRUCTS = structs_in([Scene, Rig, Style])
 ENUMS = {
     words: name
     for words, name in cpp.enums_in([words]).items()
@@ -32,6 +33,7 @@ def files() -> dict[str, str]:
         "scene/generated/scene_types.cpp": _equality(),
         "scene/generated/scene_fields.h": _fields(),
         "scene/generated/scene_keys.h": _keys(),
+        "scene/generated/style_presets.h": _styles(),
     }
 
 
@@ -85,6 +87,18 @@ def _fields() -> str:
     return cpp.header(
         heading(SOURCE, doc), [f'#include "scene/{name}"' for name in includes], NAMESPACE, parts
     )
+
+
+def _styles() -> str:
+    doc = "The styles that come with Lampblack, as JSON."
+    names = ", ".join(f'"{name}"' for name in PRESETS)
+    texts = ",\n".join(f'R"({encode_style(preset(name)).decode().strip()})"' for name in PRESETS)
+    count = len(PRESETS)
+    parts = [
+        f"constexpr std::array<const char*, {count}> StyleNames = {{{{{names}}}}};\n",
+        f"constexpr std::array<const char*, {count}> StyleTexts = {{{{\n{texts}}}}};\n",
+    ]
+    return cpp.header(heading(SOURCE, doc), ["#include <array>"], NAMESPACE, parts)
 
 
 def _keys() -> str:
