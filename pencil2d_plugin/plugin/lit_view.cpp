@@ -29,6 +29,13 @@ QRectF visibleCrop(const QTransform& imageToWidget, const QWidget& widget, const
     return seen.isEmpty() ? QRectF() : QRectF(seen.toAlignedRect().intersected(QRect(QPoint(), size)));
 }
 
+/// But for rounding.
+bool covers(const QRectF& crop, const QRectF& inSight)
+{
+    const QRectF needed = inSight.adjusted(1, 1, -1, -1);
+    return needed.isEmpty() || crop.contains(needed);
+}
+
 QSize deviceSize(const QTransform& imageToWidget, const QWidget& widget, const QRectF& crop)
 {
     const double zoom = std::sqrt(std::abs(imageToWidget.determinant())) * widget.devicePixelRatioF();
@@ -39,10 +46,10 @@ QSize deviceSize(const QTransform& imageToWidget, const QWidget& widget, const Q
 
 } // namespace
 
-LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, LampTool& tool,
-                 QObject* parent)
+LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
+                 LampTool& tool, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mUnlit(unlit), mTool(tool),
-      mPictures(MaxKiB)
+      mStandIns(host, feed, unlit, document), mPictures(MaxKiB)
 {
     mRequestTimer.setSingleShot(true);
     mRequestTimer.setInterval(0);
@@ -78,7 +85,7 @@ bool LitView::isShowing() const
 void LitView::forgetPictures()
 {
     mPictures.clear();
-    mTool.clearPicture();
+    showNothing();
     onViewChanged();
 }
 
@@ -108,48 +115,90 @@ void LitView::show()
     if (!isShowing())
     {
         mPatience.stop();
-        mTool.clearPicture();
+        showNothing();
         mTool.setLit(true); // it is what the artist wants to see
         return;
     }
     const PreviewImage* cached = mPictures.object(frame);
     const bool isKnown = mFeed.isUpToDate(frame);
     const auto fit = cached != nullptr ? mWorker.fit(*cached) : Worker::Fit::OldDrawing;
-    const bool isLit = isKnown && fit == Worker::Fit::Current && mUnlit.isLoaded(frame);
+    const bool isLit = isKnown && fit == Worker::Fit::Current && mUnlit.isLoaded(frame) &&
+                       covers(cached->crop, cropInSight());
     const bool isOld = cached == nullptr || (isKnown && fit == Worker::Fit::OldDrawing);
-    if (isLit || (!isOld && frame != mShownFrame))
-    {
-        mTool.setUnlitLayers(mUnlit.below(frame), mUnlit.above(frame));
-        mTool.setPicture(*cached);
-    }
-    else if (isOld)
-    {
-        mTool.clearPicture();
-    }
-    mShownFrame = frame;
-    mTool.setLit(isLit);
-    if (isLit)
+    const bool isOtherFrame = std::exchange(mShownFrame, frame) != frame;
+    const bool stays = !isOld && !isOtherFrame && mShown == Shown::Lit;
+    const bool returns = !isOld && fit != Worker::Fit::OldScene;
+    bool isEmpty = false;
+    if (isLit || ((stays || returns) && mUnlit.isLoaded(frame)))
+        showPicture(*cached);
+    else if (!stays)
+        isEmpty = !showStandIn();
+    mTool.setLit(isLit || isEmpty);
+    if (isLit || isEmpty)
         mPatience.stop();
     else if (!mPatience.isActive())
         mPatience.start();
 }
 
+void LitView::showPicture(const PreviewImage& picture)
+{
+    mTool.setUnlitLayers(mUnlit.below(picture.frame), mUnlit.above(picture.frame));
+    mTool.setPicture(picture);
+    std::optional<StandIn> rest;
+    if (picture.show == Show::Lit && !covers(picture.crop, cropInSight()))
+        rest = mStandIns.current();
+    mTool.setStandIn(rest ? rest->picture : PreviewImage(), rest ? rest->canvasToImage : QTransform());
+    mShown = Shown::Lit;
+}
+
+/// False if the frame is known to have nothing to light.
+bool LitView::showStandIn()
+{
+    const std::optional<StandIn> found = mTool.viewMode() == Show::Lit ? mStandIns.current() : std::nullopt;
+    if (!found || found->picture.picture.isNull())
+    {
+        showNothing();
+        return !found || found->isWhole;
+    }
+    const int frame = mHost.currentFrame();
+    mTool.setUnlitLayers(found->isWhole ? FrameExport() : mUnlit.below(frame),
+                         found->isWhole ? FrameExport() : mUnlit.above(frame));
+    mTool.setPicture(PreviewImage());
+    mTool.setStandIn(found->picture, found->canvasToImage);
+    mShown = Shown::StandIn;
+    return true;
+}
+
+void LitView::showNothing()
+{
+    mTool.clearPicture();
+    mShown = Shown::Nothing;
+}
+
+QRectF LitView::cropInSight() const
+{
+    const FrameExport exported = mFeed.lastExport(mHost.currentFrame());
+    const std::optional<QTransform> canvasToWidget = mHost.canvasToWidget();
+    if (!canvasToWidget)
+        return {};
+    const QSize size = exported.image.isNull() ? mHost.canvasSize() : exported.image.size();
+    return visibleCrop(exported.canvasToImage.inverted() * *canvasToWidget, *mHost.canvas(), size);
+}
+
 void LitView::requestPicture()
 {
     const int frame = mHost.currentFrame();
-    const std::optional<QTransform> canvasToWidget = mHost.canvasToWidget();
-    if (!isShowing() || !canvasToWidget)
+    if (!isShowing() || !mHost.canvasToWidget())
     {
         mWorker.cancelPreview();
         return;
     }
-    const FrameExport exported = mFeed.lastExport(frame);
     if (!mFeed.isUpToDate(frame))
         return;
+    const FrameExport exported = mFeed.lastExport(frame);
     mTool.setFrame(exported);
-    const QSize size = exported.image.isNull() ? mHost.canvasSize() : exported.image.size();
-    const QTransform imageToWidget = exported.canvasToImage.inverted() * *canvasToWidget;
-    const QRectF crop = visibleCrop(imageToWidget, *mHost.canvas(), size);
+    const QTransform imageToWidget = exported.canvasToImage.inverted() * *mHost.canvasToWidget();
+    const QRectF crop = cropInSight();
     if (crop.isEmpty())
         mWorker.cancelPreview();
     else
@@ -175,8 +224,7 @@ void LitView::onImageArrived(const PreviewImage& image)
     mPictures.insert(image.frame, new PreviewImage(image), int(image.picture.sizeInBytes() / 1024) + 1);
     if (image.frame != mHost.currentFrame() || !mUnlit.isLoaded(image.frame))
         return;
-    mTool.setUnlitLayers(mUnlit.below(image.frame), mUnlit.above(image.frame));
-    mTool.setPicture(image);
+    showPicture(image);
     show();
 }
 

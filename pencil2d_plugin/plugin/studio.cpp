@@ -12,7 +12,7 @@ Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
       mTool(std::make_unique<LampTool>(host, *mWorker, mDocument)),
       mFeed(std::make_unique<FrameFeed>(host, *mWorker, mDocument)),
       mUnlit(std::make_unique<UnlitLayers>(host, *mFeed, mDocument)),
-      mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mUnlit, *mTool)),
+      mView(std::make_unique<LitView>(host, *mWorker, *mFeed, *mUnlit, mDocument, *mTool)),
       mCuts(std::make_unique<CutFeed>(host, *mWorker, *mFeed, mDocument, *mTool)),
       mLayer(std::make_unique<LitLayer>(host, mDocument)),
       mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, *mLayer, mDocument)),

@@ -192,6 +192,8 @@ void LampTool::setViewMode(std::optional<Show> mode)
 {
     if (mPanel)
         mPanel->setViewMode(mode);
+    if (mOverlay)
+        mOverlay->clearPicture();
     updateInput();
     Q_EMIT viewModeChanged();
 }
@@ -219,9 +221,15 @@ void LampTool::setFrame(const FrameExport& frame)
 
 void LampTool::setPicture(const PreviewImage& picture)
 {
-    if (!mOverlay || picture.show != viewMode())
+    if (!mOverlay || (!picture.picture.isNull() && picture.show != viewMode()))
         return;
     mOverlay->setPicture(picture, mCameras.value(picture.frame));
+}
+
+void LampTool::setStandIn(const PreviewImage& picture, const QTransform& canvasToImage)
+{
+    if (mOverlay)
+        mOverlay->setStandIn(picture, canvasToImage);
 }
 
 void LampTool::clearPicture()

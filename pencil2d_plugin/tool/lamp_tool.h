@@ -52,8 +52,11 @@ public Q_SLOTS:
     /// frame.
     void setFrame(const lampblack::FrameExport& frame);
 
-    /// Show a picture instead of the drawing. It is ignored if viewMode() is another one.
+    /// Show a picture instead of the drawing; a null one for none. It is ignored if viewMode() is another
+    /// one.
     void setPicture(const lampblack::PreviewImage& picture);
+    /// Show a picture, with a camera of its own, where no lit one is; a null picture for none.
+    void setStandIn(const lampblack::PreviewImage& picture, const QTransform& canvasToImage);
     void clearPicture();
     /// Whether the picture is what the artist has asked for; otherwise the state is never Ready.
     void setLit(bool lit);

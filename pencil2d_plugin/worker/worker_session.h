@@ -104,7 +104,7 @@ private:
     quint64 mDepthRevision = 0;    ///< the first revision with the depth of mScene
     QSet<quint64> mJobRevisions;   ///< revisions of the scenes of jobs that differ from mScene
     std::optional<PreviewRequest> mPreview;
-    ImageRank mShownRank;                ///< rank of the last image that was emitted
+    QHash<int, ImageRank> mImageRanks;   ///< of the last image that was emitted, by frame
     QMap<int, quint64> mPaletteRequests; ///< request by frame, 0 while it is not sent
     QMap<int, quint64> mOverlapRequests; ///< as well
     RenderJobs mJobs;

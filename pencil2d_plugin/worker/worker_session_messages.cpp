@@ -62,16 +62,17 @@ void WorkerSession::handle(const protocol::NeedFrame& need)
 void WorkerSession::handle(const protocol::Image& image, const QImage& picture)
 {
     const auto shown = mFrameStore.frames().constFind(image.frame);
-    const bool isWanted = mPreview && image.frame == mPreview->frame && image.show == mPreview->show &&
+    // A picture that comes late, when the animation has played on, is good for the next time.
+    const bool isWanted = mPreview && image.show == mPreview->show &&
                           shown != mFrameStore.frames().constEnd() && image.digest == shown->digest;
     const bool isOurs = image.request <= mRequest && image.revision <= mRevision &&
                         !mJobRevisions.contains(image.revision) && !picture.isNull();
     const ImageRank rank{image.request, isWanted ? shown->drawing : 0, image.revision, image.pass};
-    if (!isWanted || !isOurs || !(mShownRank < rank))
+    if (!isWanted || !isOurs || !(mImageRanks.value(image.frame) < rank))
     {
         return;
     }
-    mShownRank = rank;
+    mImageRanks.insert(image.frame, rank);
     const int pass = static_cast<int>(qMin(image.pass, quint64(std::numeric_limits<int>::max())));
     Q_EMIT imageArrived({image.frame, mPreview->show, image.crop, picture, image.digest, image.revision, pass,
                          image.converged});

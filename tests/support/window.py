@@ -153,8 +153,12 @@ class Pencil2D:
         )
         self.display.do("windowactivate", "--sync", self.window)
         self.click("pencilButton")
-        assert self._ask({"do": "open", "path": str(project)})["done"]
+        self.ask_to_open(project)
         wait_until(lambda: self.value("lampblack", "project") == str(project), "the project")
+
+    def ask_to_open(self, project: Path) -> None:
+        """As a file manager would; the lamp stays in use."""
+        assert self._ask({"do": "open", "path": str(project)})["done"]
 
     def close(self) -> None:
         """End it without a question, if it is still there, and see that it had not died."""

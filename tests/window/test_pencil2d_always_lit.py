@@ -6,13 +6,16 @@ Plain is a canvas where as many pixels as in the drawing have exactly the drawin
 
 from __future__ import annotations
 
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
-from support.lamp import keep, light_up, settled
+from support.lamp import Canvas, keep, light_up, project_in, settled
 from support.window import Pencil2D, wait_until
 
 FUR = "#4f8fb3"
@@ -47,12 +50,49 @@ def is_ready(window: Pencil2D) -> bool:
     return bool(window.value("lampblack.panel.worker", "text") == "Ready")
 
 
+def shows_light(window: Pencil2D) -> bool:
+    overlay = window.find("lampblack.overlay")["properties"]
+    return bool(overlay["showsPicture"] or overlay["showsStandIn"])
+
+
 @pytest.fixture
 def plain(window: Pencil2D) -> float:
     """The share of flat pixels in the plain drawing; then the canvas is lit."""
     share = plain_share(window)
     light_up(window)
     return share
+
+
+@contextmanager
+def busy_machine(processes: int = 4) -> Iterator[None]:
+    """Others work on the machine meanwhile."""
+    command = [sys.executable, "-c", "while True: pass"]
+    others = [subprocess.Popen(command) for _ in range(processes)]
+    try:
+        yield
+    finally:
+        for other in others:
+            other.kill()
+            other.wait()
+
+
+def play(window: Pencil2D, seconds: float) -> None:
+    window.trigger("actionPlay")
+    time.sleep(seconds)
+    window.trigger("actionPlay")
+
+
+def test_first_light_is_instant(window: Pencil2D) -> None:
+    share = plain_share(window)
+    window.watch([FUR])
+    window.click("lampblackButton")
+    wait_until(lambda: shows_light(window), "an instant shading")
+    assert not is_ready(window) or window.value("lampblack.overlay", "showsPicture")
+    settled(window)
+    looks = window.watch([])
+    lit = [at for at, seen in looks if seen < WHILE_PLAIN * share]
+    assert lit, "it is lit at last"
+    assert all(seen < WHILE_PLAIN * share for at, seen in looks if at >= lit[0])
 
 
 def test_selecting_and_deselecting(window: Pencil2D, plain: float) -> None:
@@ -77,3 +117,69 @@ def test_saving_under_another_name(window: Pencil2D, plain: float, tmp_path: Pat
         wait_until(lambda: is_ready(window), "the light", 30)
         settled(window)
     keep(window, "saved as")
+
+
+def test_going_to_frames_never_seen(window: Pencil2D, plain: float) -> None:
+    with busy_machine(), staying_lit(window, plain):
+        for _ in range(6):
+            window.trigger("actionNext_Frame")
+            assert not is_ready(window) or window.value("lampblack", "settled")
+            time.sleep(0.2)
+        keep(window, "frame never seen")
+        for _ in range(3):
+            window.trigger("actionPrevious_Frame")
+    settled(window)
+    keep(window, "frame seen")
+
+
+def test_playing_frames_never_seen(window: Pencil2D, plain: float) -> None:
+    with staying_lit(window, plain):
+        play(window, 3)
+        settled(window)
+
+
+def test_playing_while_surfaces_are_made_and_after(window: Pencil2D, plain: float) -> None:
+    window.trigger("lampblack.panel.generate")
+    with staying_lit(window, plain):
+        with busy_machine():
+            play(window, 3)
+        bar = "lampblack.panel.generate.progress"
+        wait_until(lambda: not window.value(bar, "visible"), "all surfaces", 240)
+        with busy_machine():
+            play(window, 3)
+        settled(window)
+
+
+def test_undoing_a_stroke(window: Pencil2D, plain: float) -> None:
+    window.click("pencilButton")
+    canvas = Canvas(window)
+    for _ in window.drag([canvas.screen(100 + 4 * i, 680) for i in range(30)]):
+        pass
+    light_up(window)
+    with staying_lit(window, plain):
+        window.trigger("actionUndo")
+        wait_until(lambda: not is_ready(window), "the drawing to be read again", 10)
+        settled(window)
+
+
+def test_moving_the_view(window: Pencil2D, plain: float) -> None:
+    with staying_lit(window, plain):
+        for action in ("actionZoom_In", "actionZoom_In", "actionZoom_Out", "actionZoom_Out"):
+            window.trigger(action)
+            time.sleep(0.2)
+        window.trigger("actionZoom_Out")
+        settled(window)
+
+
+def test_another_project_is_never_ready_while_it_is_plain(
+    window: Pencil2D, plain: float, tmp_path: Path
+) -> None:
+    folder = tmp_path / "another"
+    folder.mkdir()
+    another = project_in(folder)
+    window.display.do("windowactivate", "--sync", window.window)
+    window.ask_to_open(another)
+    wait_until(lambda: window.value("lampblack", "project") == str(another), "the project")
+    wait_until(lambda: shows_light(window), "a shading", 10)
+    with staying_lit(window, plain):
+        settled(window)

@@ -33,13 +33,26 @@ CanvasOverlay::CanvasOverlay(Host& host, const SceneDocument& document)
 
 bool CanvasOverlay::showsPicture() const
 {
-    return !mComparing && !mPicture.isEmpty() && mCanvasToWidget;
+    return !mComparing && mPicture.hasPicture() && mCanvasToWidget;
+}
+
+bool CanvasOverlay::showsStandIn() const
+{
+    return !mComparing && !mPicture.hasPicture() && !mPicture.isEmpty() && mCanvasToWidget;
 }
 
 void CanvasOverlay::setPicture(const PreviewImage& image, const QTransform& canvasToImage)
 {
     const QRect before = mCanvasToWidget ? mPicture.bounds(*mCanvasToWidget) : QRect();
     mPicture.setPicture(image, canvasToImage);
+    if (mCanvasToWidget)
+        update(before.united(mPicture.bounds(*mCanvasToWidget)));
+}
+
+void CanvasOverlay::setStandIn(const PreviewImage& image, const QTransform& canvasToImage)
+{
+    const QRect before = mCanvasToWidget ? mPicture.bounds(*mCanvasToWidget) : QRect();
+    mPicture.setStandIn(image, canvasToImage);
     if (mCanvasToWidget)
         update(before.united(mPicture.bounds(*mCanvasToWidget)));
 }
@@ -149,7 +162,7 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
         return;
     QPainter painter(this);
     painter.setClipRegion(event->region());
-    if (showsPicture())
+    if (showsPicture() || showsStandIn())
         mPicture.paint(painter, *mCanvasToWidget, size(), devicePixelRatioF(), mHost.paper());
     if (!mHandlesShown)
         return;

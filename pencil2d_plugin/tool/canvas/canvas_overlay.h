@@ -17,6 +17,7 @@ class CanvasOverlay : public QWidget
 {
     Q_OBJECT
     Q_PROPERTY(bool showsPicture READ showsPicture)
+    Q_PROPERTY(bool showsStandIn READ showsStandIn)
 
 public:
     /// host.canvas() must not be null.
@@ -25,9 +26,12 @@ public:
     const Handles& handles() const { return mHandles; }
     const std::optional<QTransform>& canvasToWidget() const { return mCanvasToWidget; }
     bool showsPicture() const;
+    bool showsStandIn() const; ///< and no picture
 
     void setPicture(const PreviewImage& image, const QTransform& canvasToImage);
     void setUnlitLayers(const FrameExport& below, const FrameExport& above);
+    /// What is shown where the picture does not reach; a null picture for nothing.
+    void setStandIn(const PreviewImage& image, const QTransform& canvasToImage);
     void clearPicture();
 
     /// While comparing, the drawing is shown as drawn.

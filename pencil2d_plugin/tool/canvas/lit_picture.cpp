@@ -3,14 +3,49 @@
 namespace lampblack
 {
 
+namespace
+{
+
+bool isSame(const PreviewImage& one, const PreviewImage& other)
+{
+    return one.picture.cacheKey() == other.picture.cacheKey() && one.crop == other.crop;
+}
+
+QRectF covered(const PreviewImage& image, const QTransform& canvasToImage, const QTransform& canvasToWidget)
+{
+    if (image.picture.isNull())
+        return {};
+    return (canvasToImage.inverted() * canvasToWidget).mapRect(image.crop);
+}
+
+void drawLayers(QPainter& painter, const FrameExport& layers, const QRectF& crop,
+                const QTransform& canvasToImage)
+{
+    if (layers.image.isNull())
+        return;
+    painter.save();
+    painter.setClipRect(crop);
+    painter.setTransform(layers.canvasToImage.inverted() * canvasToImage, true);
+    painter.drawImage(QPointF(), layers.image);
+    painter.restore();
+}
+
+} // namespace
+
 void LitPicture::setPicture(const PreviewImage& image, const QTransform& canvasToImage)
 {
-    const bool isSame = image.picture.cacheKey() == mImage.picture.cacheKey() && image.crop == mImage.crop &&
-                        canvasToImage == mCanvasToImage;
+    if (!isSame(image, mImage) || canvasToImage != mCanvasToImage)
+        mCache = QPixmap();
     mImage = image;
     mCanvasToImage = canvasToImage;
-    if (!isSame)
+}
+
+void LitPicture::setStandIn(const PreviewImage& image, const QTransform& canvasToImage)
+{
+    if (!isSame(image, mStandIn) || canvasToImage != mCanvasToStandIn)
         mCache = QPixmap();
+    mStandIn = image;
+    mCanvasToStandIn = canvasToImage;
 }
 
 void LitPicture::setUnlitLayers(const FrameExport& below, const FrameExport& above)
@@ -29,6 +64,7 @@ void LitPicture::setUnlitLayers(const FrameExport& below, const FrameExport& abo
 void LitPicture::clear()
 {
     mImage = PreviewImage();
+    mStandIn = PreviewImage();
     mCache = QPixmap();
 }
 
@@ -36,8 +72,8 @@ QRect LitPicture::bounds(const QTransform& canvasToWidget) const
 {
     if (isEmpty())
         return {};
-    return (mCanvasToImage.inverted() * canvasToWidget)
-        .mapRect(mImage.crop)
+    return covered(mImage, mCanvasToImage, canvasToWidget)
+        .united(covered(mStandIn, mCanvasToStandIn, canvasToWidget))
         .adjusted(-1, -1, 1, 1)
         .toAlignedRect();
 }
@@ -45,21 +81,23 @@ QRect LitPicture::bounds(const QTransform& canvasToWidget) const
 void LitPicture::paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view,
                        double pixelRatio, const QColor& paper)
 {
-    const QRect covered = bounds(canvasToWidget).intersected(QRect(QPoint(), view));
-    if (covered.isEmpty())
+    const QRect area = bounds(canvasToWidget).intersected(QRect(QPoint(), view));
+    if (area.isEmpty())
         return;
     if (mCache.isNull() || mCacheTransform != canvasToWidget || mCacheView != view || mCachePaper != paper ||
         !qFuzzyCompare(mCache.devicePixelRatio(), pixelRatio))
     {
-        QPixmap cache((QSizeF(covered.size()) * pixelRatio).toSize());
+        QPixmap cache((QSizeF(area.size()) * pixelRatio).toSize());
         cache.setDevicePixelRatio(pixelRatio);
         cache.fill(Qt::transparent);
         QPainter into(&cache);
-        into.translate(-covered.topLeft());
-        draw(into, canvasToWidget, paper);
+        into.translate(-area.topLeft());
+        into.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
+        draw(into, mStandIn, mCanvasToStandIn, canvasToWidget, paper);
+        draw(into, mImage, mCanvasToImage, canvasToWidget, paper);
         into.end();
         mCache = cache;
-        mCachePosition = covered.topLeft();
+        mCachePosition = area.topLeft();
         mCacheTransform = canvasToWidget;
         mCacheView = view;
         mCachePaper = paper;
@@ -67,24 +105,17 @@ void LitPicture::paint(QPainter& painter, const QTransform& canvasToWidget, cons
     painter.drawPixmap(mCachePosition, mCache);
 }
 
-void LitPicture::draw(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const
+void LitPicture::draw(QPainter& painter, const PreviewImage& image, const QTransform& canvasToImage,
+                      const QTransform& canvasToWidget, const QColor& paper) const
 {
-    painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
-    painter.setTransform(mCanvasToImage.inverted() * canvasToWidget, true);
-    painter.fillRect(mImage.crop, paper);
-    drawLayers(painter, mBelow);
-    painter.drawImage(mImage.crop, mImage.picture, QRectF(mImage.picture.rect()));
-    drawLayers(painter, mAbove);
-}
-
-void LitPicture::drawLayers(QPainter& painter, const FrameExport& layers) const
-{
-    if (layers.image.isNull())
+    if (image.picture.isNull())
         return;
     painter.save();
-    painter.setClipRect(mImage.crop);
-    painter.setTransform(layers.canvasToImage.inverted() * mCanvasToImage, true);
-    painter.drawImage(QPointF(), layers.image);
+    painter.setTransform(canvasToImage.inverted() * canvasToWidget, true);
+    painter.fillRect(image.crop, paper);
+    drawLayers(painter, mBelow, image.crop, canvasToImage);
+    painter.drawImage(image.crop, image.picture, QRectF(image.picture.rect()));
+    drawLayers(painter, mAbove, image.crop, canvasToImage);
     painter.restore();
 }
 

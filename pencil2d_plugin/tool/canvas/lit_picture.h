@@ -16,24 +16,29 @@ class LitPicture
 public:
     /// `canvasToImage` is the camera of the frame: the picture's crop is in the frame's own pixels.
     void setPicture(const PreviewImage& image, const QTransform& canvasToImage);
+    /// What is shown where the picture's crop does not reach; a null picture for nothing.
+    void setStandIn(const PreviewImage& image, const QTransform& canvasToImage);
     /// The unlit layers under and over the lit ones; null images for none.
     void setUnlitLayers(const FrameExport& below, const FrameExport& above);
     void clear();
-    bool isEmpty() const { return mImage.picture.isNull(); }
+    bool hasPicture() const { return !mImage.picture.isNull(); }
+    bool isEmpty() const { return !hasPicture() && mStandIn.picture.isNull(); }
     const PreviewImage& image() const { return mImage; }
 
-    /// The widget pixels that the picture covers.
+    /// The widget pixels that the picture and its stand-in cover.
     QRect bounds(const QTransform& canvasToWidget) const;
 
     void paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view, double pixelRatio,
                const QColor& paper);
 
 private:
-    void draw(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const;
-    void drawLayers(QPainter& painter, const FrameExport& layers) const;
+    void draw(QPainter& painter, const PreviewImage& image, const QTransform& canvasToImage,
+              const QTransform& canvasToWidget, const QColor& paper) const;
 
     PreviewImage mImage;
     QTransform mCanvasToImage;
+    PreviewImage mStandIn;
+    QTransform mCanvasToStandIn;
     FrameExport mBelow;
     FrameExport mAbove;
 

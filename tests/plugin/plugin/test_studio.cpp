@@ -58,7 +58,7 @@ private Q_SLOTS:
         QTRY_COMPARE(mWorker->mPreviews.size(), 1);
         QCOMPARE(mWorker->mPreviews[0].frame, 1);
         QCOMPARE(mWorker->mPreviews[0].show, Show::Lit);
-        QVERIFY(!showsPicture());
+        QVERIFY(!showsPicture() && showsStandIn());
 
         PreviewImage coarse = mWorker->pictureOf(1);
         coarse.converged = false;
@@ -105,7 +105,7 @@ private Q_SLOTS:
         draw();
         QCOMPARE(mWorker->mPut, (QVector<int>{1, 1}));
         QCOMPARE(mWorker->mPalettes, (QVector<int>{1, 1}));
-        QVERIFY(!showsPicture());
+        QTRY_VERIFY(!showsPicture() && showsStandIn());
         QVERIFY(!mStudio->isSettled());
         mHost->goToFrame(2);
         mHost->goToFrame(1);
@@ -143,7 +143,7 @@ private Q_SLOTS:
         openLit();
         mHost->mDraw = {};
         Q_EMIT mHost->projectOpened({});
-        QVERIFY(!showsPicture() && !isReady());
+        QVERIFY(!showsPicture() && !showsStandIn() && !isReady());
     }
 
     void pictureThatDoesNotComeIsAskedForAgain()
@@ -159,6 +159,64 @@ private Q_SLOTS:
         mHost->goToFrame(2);
         QVERIFY2(!isReady(), "nothing is Ready while the frame is not lit");
         QTRY_COMPARE(mWorker->mPreviews.last().frame, 2);
+    }
+
+    void standInFollowsTheLight()
+    {
+        mHost->open();
+        QTRY_VERIFY(showsStandIn());
+        const auto shown = [this]
+        {
+            return qGreen(mHost->mCanvas->grab().toImage().pixel(160, 110));
+        };
+        setPower(0.1);
+        const int before = shown();
+        setPower(0.5);
+        QVERIFY2(shown() > before + 10, "at once");
+    }
+
+    void standInIsOfTheDrawingUnderTheNewScene()
+    {
+        openLit();
+        const auto middle = [this]
+        {
+            return QColor(mHost->mCanvas->grab().toImage().pixel(200, 150));
+        };
+        QCOMPARE(middle(), QColor(Qt::red)); // the picture of the worker
+        mStrokes = 120;
+        draw();
+        QTRY_VERIFY(showsStandIn());
+        QVERIFY(middle().green() > 1.2 * middle().red());
+    }
+
+    void pictureThatDoesNotReachFarEnoughIsContinued()
+    {
+        openLit();
+        PreviewImage part = mWorker->pictureOf(1);
+        part.crop = QRectF(0, 0, 200, 300);
+        Q_EMIT mWorker->imageArrived(part);
+        QVERIFY(showsPicture() && !isReady());
+        const QImage shown = mHost->mCanvas->grab().toImage();
+        QCOMPARE(QColor(shown.pixel(150, 150)), QColor(Qt::red));
+        const QColor drawn(drawing(QColor::fromHsv(0, 101, 200)).pixel(260, 150));
+        QVERIFY(shown.pixel(260, 150) != drawn.rgb());
+        QVERIFY(qRed(shown.pixel(260, 150)) < drawn.red());
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
+        QVERIFY(isReady());
+    }
+
+    void emptyPageIsReady()
+    {
+        mHost->mDraw = [](int, const QStringList&)
+        {
+            QImage image(400, 300, QImage::Format_RGBA8888);
+            image.fill(Qt::transparent);
+            return image;
+        };
+        mHost->open();
+        QTRY_COMPARE(mWorker->mPut.size(), 1);
+        QTRY_VERIFY(isReady());
+        QVERIFY(!showsStandIn());
     }
 
     void flatViewIsReady()
@@ -203,8 +261,8 @@ private Q_SLOTS:
         QVERIFY(showsPicture());
         setPower(2.5);
         mHost->goToFrame(2);
-        QVERIFY2(showsPicture(), "the last light is better than none");
-        QVERIFY2(!isReady() && !mStudio->isSettled(), "it shows the scene as it was");
+        QVERIFY2(!showsPicture(), "it shows the scene as it was");
+        QVERIFY2(showsStandIn() && !isReady(), "in the new light");
     }
 
     void pictureOfAnotherViewIsNotShown()

@@ -7,6 +7,7 @@
 #include "tool/canvas/canvas_overlay.h"
 
 #include <QDoubleSpinBox>
+#include <QPainter>
 #include <QTemporaryDir>
 
 namespace lampblack
@@ -21,7 +22,10 @@ protected:
     static QImage drawing(const QColor& colour = Qt::white)
     {
         QImage image(400, 300, QImage::Format_RGBA8888);
-        image.fill(colour);
+        image.fill(Qt::transparent);
+        QPainter painter(&image);
+        painter.setBrush(colour);
+        painter.drawEllipse(100, 50, 200, 200);
         return image;
     }
     /// A stroke has ended that changed the current frame.
@@ -42,6 +46,7 @@ protected:
     void setPower(double power) const { find<QDoubleSpinBox>("panel.power.field")->setValue(power); }
     double sentPower() const { return mWorker->mScenes.last().lights.first().power; }
     bool showsPicture() const { return find<CanvasOverlay>("overlay")->showsPicture(); }
+    bool showsStandIn() const { return find<CanvasOverlay>("overlay")->showsStandIn(); }
 
     std::unique_ptr<QTemporaryDir> mFolder;
     std::unique_ptr<FakeHost> mHost;

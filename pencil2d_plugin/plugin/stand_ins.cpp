@@ -1,0 +1,90 @@
+#include "plugin/stand_ins.h"
+
+#include "scene/layer_roles.h"
+#include "scene/timeline.h"
+
+#include <algorithm>
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr int MaxKiB = 128 * 1024;
+}
+
+StandIns::StandIns(Host& host, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document, QObject* parent)
+    : QObject(parent), mHost(host), mFeed(feed), mUnlit(unlit), mDocument(document), mKept(MaxKiB)
+{
+    connect(&feed, &FrameFeed::frameOutdated, this, [this](int frame) { mKept.remove(frame); });
+    connect(&host, &Host::projectOpened, this, [this] { mKept.clear(); });
+    connect(&host, &Host::layersChanged, this, [this] { mKept.clear(); });
+}
+
+std::optional<StandIn> StandIns::current()
+{
+    const int frame = mHost.currentFrame();
+    const FrameExport exported = mUnlit.isLoaded(frame) ? mFeed.lastExport(frame) : FrameExport();
+    const std::optional<QTransform> view = mHost.canvasToWidget();
+    if (!view)
+        return std::nullopt;
+    const Scene scene = sceneAt(mDocument.scene(), frame);
+    Kept* kept = mKept.object(frame);
+    const bool fits = kept != nullptr &&
+                      (exported.image.isNull() ? kept->standIn.isWhole && kept->standIn.canvasToImage == *view
+                                               : !kept->standIn.isWhole);
+    if (fits && kept->scene == scene)
+        return kept->standIn;
+
+    Kept made;
+    if (fits)
+    {
+        made.source = kept->source;
+        made.shape = kept->shape;
+    }
+    else
+    {
+        const std::optional<FrameExport> source =
+            exported.image.isNull() ? seenOnCanvas() : std::optional<FrameExport>(exported);
+        if (!source)
+            return std::nullopt;
+        made.source = *source;
+        made.shape = inflateFigure(made.source.image);
+    }
+    made.scene = scene;
+    made.standIn.isWhole = exported.image.isNull();
+    made.standIn.canvasToImage = made.source.canvasToImage;
+    made.standIn.picture.frame = frame;
+    if (!made.shape.isEmpty())
+    {
+        const InstantLight light = lightOn(made.shape, scene, made.source.canvasToImage);
+        made.standIn.picture.picture = shadedDrawing(made.source.image, made.shape, light, scene);
+        made.standIn.picture.crop = QRectF(QPointF(), QSizeF(made.source.image.size()));
+    }
+    const qint64 bytes = made.standIn.picture.picture.sizeInBytes() + made.source.image.sizeInBytes();
+    const StandIn standIn = made.standIn;
+    mKept.insert(frame, new Kept(made), int(bytes / 1024) + 1);
+    return standIn;
+}
+
+std::optional<FrameExport> StandIns::seenOnCanvas() const
+{
+    QWidget* canvas = mHost.canvas();
+    const std::optional<QTransform> view = mHost.canvasToWidget();
+    if (canvas == nullptr || !view || showsResult() || canvas->size().isEmpty())
+        return std::nullopt;
+    QImage image(canvas->size(), QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::transparent);
+    canvas->render(&image, QPoint(), QRegion(), QWidget::RenderFlags());
+    return FrameExport{mHost.currentFrame(), image, *view, {}};
+}
+
+bool StandIns::showsResult() const
+{
+    const QVector<Layer> layers = mHost.layers();
+    const LayerRoles roles = mDocument.layerRoles();
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const Layer& layer) { return layer.visible && isResult(layer.name, roles); });
+}
+
+} // namespace lampblack

@@ -1,0 +1,57 @@
+// Pictures that stand in for lit ones until these come: instant shadings of frames.
+#pragma once
+
+#include "host/host.h"
+#include "plugin/frame_feed.h"
+#include "plugin/unlit_layers.h"
+#include "scene/scene_document.h"
+#include "tool/canvas/instant_shading.h"
+#include "worker/worker.h"
+
+#include <QCache>
+
+#include <optional>
+
+namespace lampblack
+{
+
+struct StandIn
+{
+    PreviewImage picture; ///< null: there is nothing to light
+    QTransform canvasToImage;
+    bool isWhole = false; ///< with everything that is seen, not the lit layers alone
+};
+
+/// Shades what a frame shows: its lit layers if they have been read, otherwise what the canvas shows at this
+/// moment. Shapes and pictures are kept while they fit. Takes some milliseconds, in the UI thread.
+class StandIns : public QObject
+{
+    Q_OBJECT
+
+public:
+    StandIns(Host& host, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
+             QObject* parent = nullptr);
+
+    /// For the current frame, under the scene as it is now. No value if it cannot be told what is drawn.
+    std::optional<StandIn> current();
+
+private:
+    struct Kept
+    {
+        FrameExport source;
+        InstantShape shape;
+        Scene scene; ///< of `standIn`
+        StandIn standIn;
+    };
+
+    std::optional<FrameExport> seenOnCanvas() const;
+    bool showsResult() const;
+
+    Host& mHost;
+    FrameFeed& mFeed;
+    UnlitLayers& mUnlit;
+    SceneDocument& mDocument;
+    QCache<int, Kept> mKept; ///< by frame, cost in KiB
+};
+
+} // namespace lampblack

@@ -1,0 +1,258 @@
+// The instant shading follows the laws of light, and the shape behind it its closed form.
+#include "scene/scene.h"
+#include "support/scenes.h"
+#include "tool/canvas/instant_shading.h"
+
+#include <QPainter>
+#include <QtTest>
+
+#include <cmath>
+
+using namespace lampblack;
+
+namespace
+{
+
+const QSize Size(400, 300);
+const QPointF Middle(200, 150);
+constexpr double Radius = 120;
+
+QImage blank()
+{
+    QImage image(Size, QImage::Format_RGBA8888);
+    image.fill(Qt::transparent);
+    return image;
+}
+
+QImage disc(const QColor& colour = QColor(128, 128, 128))
+{
+    QImage image = blank();
+    QPainter painter(&image);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    painter.drawEllipse(Middle, Radius, Radius);
+    return image;
+}
+
+Scene dark(double x, double y, double z, double power = 1)
+{
+    Scene scene = sceneWithLight(x, y, z);
+    scene.ambient.strength = 0;
+    scene.lights[0].power = power;
+    return scene;
+}
+
+int elementAt(const InstantShape& shape, double x, double y)
+{
+    return int(y / shape.step) * shape.size.width() + int(x / shape.step);
+}
+
+/// Linear light on the drawing at a place.
+double lightAt(const Scene& scene, double x, double y, const QTransform& camera = {})
+{
+    const InstantShape shape = inflateFigure(disc());
+    return std::pow(lightOn(shape, scene, camera).red[elementAt(shape, x, y)], 2.2);
+}
+
+QImage shaded(const QImage& drawing, const Scene& scene)
+{
+    const InstantShape shape = inflateFigure(drawing);
+    return shadedDrawing(drawing, shape, lightOn(shape, scene, {}), scene);
+}
+
+} // namespace
+
+class InstantShadingTest : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void discBecomesHalfABall()
+    {
+        const InstantShape shape = inflateFigure(disc());
+        QVERIFY(!shape.isEmpty());
+        for (const double angle : {0.0, 1.0, 2.5, 4.4})
+        {
+            for (const double share : {0.0, 0.3, 0.6, 0.85})
+            {
+                const double x = share * Radius * std::cos(angle);
+                const double y = share * Radius * std::sin(angle);
+                const int at = elementAt(shape, Middle.x() + x, Middle.y() + y);
+                const double depth = std::sqrt(1 - share * share);
+                QVERIFY(std::abs(shape.height[at] - depth * Radius) < 0.06 * Radius);
+                QVERIFY(std::abs(shape.nx[at] - x / Radius) < 0.06);
+                QVERIFY(std::abs(shape.ny[at] - y / Radius) < 0.06);
+                QVERIFY(std::abs(shape.nz[at] - depth) < 0.06);
+            }
+        }
+    }
+
+    void sideTowardsTheLightIsBrighter()
+    {
+        const Scene fromLeft = dark(20, 150, 200);
+        QVERIFY(lightAt(fromLeft, 120, 150) > 2 * lightAt(fromLeft, 280, 150));
+        const Scene fromAbove = dark(200, 0, 200);
+        QVERIFY(lightAt(fromAbove, 200, 70) > 2 * lightAt(fromAbove, 200, 230));
+    }
+
+    void lightIsLinearInPowerAndAdds()
+    {
+        // Below the roll-off.
+        const double one = lightAt(dark(20, 150, 200, 0.1), 150, 150);
+        QVERIFY(std::abs(lightAt(dark(20, 150, 200, 0.3), 150, 150) - 3 * one) < 0.02 * one);
+        Scene both = dark(20, 150, 200, 0.1);
+        both.lights.append(dark(380, 150, 200, 0.1).lights[0]);
+        const double other = lightAt(dark(380, 150, 200, 0.1), 150, 150);
+        QVERIFY(std::abs(lightAt(both, 150, 150) - one - other) < 0.02 * one);
+        both.ambient.strength = 0.1;
+        QVERIFY(std::abs(lightAt(both, 150, 150) - one - other - 0.1) < 0.02 * one);
+    }
+
+    void farLampFallsOffWithTheSquareOfItsDistance()
+    {
+        const double near = lightAt(dark(200, 150, 2000, 1), 200, 150) / 1;
+        const double far = lightAt(dark(200, 150, 4000, 1), 200, 150);
+        const double nearest = 2000 - Radius;
+        const double farthest = 4000 - Radius;
+        QVERIFY(std::abs(near / far * nearest * nearest / farthest / farthest - 1) < 0.02);
+    }
+
+    void ambientAloneIsEvenAndLampsThatAreOffAreDark()
+    {
+        Scene scene = dark(20, 150, 200);
+        scene.ambient.strength = 0.4;
+        scene.lights[0].on = false;
+        for (const double x : {100.0, 200.0, 300.0})
+            QVERIFY(std::abs(lightAt(scene, x, 150) - 0.4) < 0.01);
+        scene.lights[0].on = true;
+        scene.lights.append(dark(380, 150, 200, 0.2).lights[0]);
+        const double both = lightAt(scene, 150, 150);
+        scene.lights[1].solo = true;
+        QVERIFY(lightAt(scene, 150, 150) < both - 0.05);
+    }
+
+    void sunHasNoFalloff()
+    {
+        Scene scene = dark(20, 150, 200, 0.3);
+        scene.lights[0].kind = LightKind::Sun;
+        const double near = lightAt(scene, 200, 150);
+        scene.lights[0].x = 200 - 10 * 180;
+        scene.lights[0].z = 10 * 200;
+        scene.lights[0].size *= 10;
+        QVERIFY(std::abs(lightAt(scene, 200, 150) - near) < 0.01 * near);
+    }
+
+    void lightBehindThePaperShinesOnTheRimOnly()
+    {
+        const Scene scene = dark(20, 150, -200);
+        QVERIFY(lightAt(scene, 200, 150) < 0.001);
+        QVERIFY(lightAt(scene, 82, 150) > 0.05);
+    }
+
+    void colourOfTheLightTintsTheDrawing()
+    {
+        Scene scene = dark(200, 150, 200);
+        scene.lights[0].colour = Qt::red;
+        const QRgb middle = shaded(disc(), scene).pixel(200, 150);
+        QVERIFY(qRed(middle) > 100);
+        QCOMPARE(qGreen(middle), 0);
+    }
+
+    void cameraMovesTheLightWithTheDrawing()
+    {
+        // The camera has zoomed to half: the disc of 120 pixels is one of 240 on the canvas.
+        const double close = lightAt(dark(20, 150, 200, 0.3), 120, 150);
+        const double zoomed = lightAt(
+            [&]
+            {
+                Scene scene = dark(40, 300, 400, 0.3);
+                scene.canvas = {800, 600};
+                scene.lights[0].size = 200;
+                return scene;
+            }(),
+            120, 150, QTransform::fromScale(0.5, 0.5));
+        QVERIFY(std::abs(zoomed - close) < 0.01 * close);
+    }
+
+    void paperAroundTheFigureIsBare()
+    {
+        const QImage picture = shaded(disc(), dark(20, 150, 200));
+        QCOMPARE(picture.size(), Size);
+        QCOMPARE(qAlpha(picture.pixel(20, 20)), 0);
+        QCOMPARE(qAlpha(picture.pixel(200, 150)), 255);
+    }
+
+    void paperThatLinesEncloseIsLitAsWhite()
+    {
+        QImage ring = blank();
+        QPainter painter(&ring);
+        painter.setPen(QPen(Qt::black, 6));
+        painter.drawEllipse(Middle, Radius, Radius);
+        painter.end();
+        const QImage picture = shaded(ring, dark(20, 150, 200));
+        const auto shownAt = [&](int x, int y)
+        {
+            return 255 - qAlpha(picture.pixel(x, y)) + qRed(picture.pixel(x, y));
+        };
+        QCOMPARE(shownAt(20, 20), 255);
+        QVERIFY(shownAt(300, 150) < 100);
+        QVERIFY(shownAt(120, 150) > shownAt(280, 150) + 50);
+    }
+
+    void paintedGroundIsNotLit()
+    {
+        QImage painted = disc(QColor(60, 120, 60));
+        QImage whole(Size, QImage::Format_RGBA8888);
+        whole.fill(QColor(200, 220, 240));
+        QPainter painter(&whole);
+        painter.drawImage(0, 0, painted);
+        painter.end();
+        const QImage picture = shaded(whole, dark(20, 150, 200));
+        QCOMPARE(QColor(picture.pixel(20, 20)), QColor(200, 220, 240));
+        QVERIFY(qGreen(picture.pixel(300, 150)) < 60);
+    }
+
+    void coloursWithoutMaterialStayAsDrawn()
+    {
+        Scene scene = dark(20, 150, 200);
+        scene.materials.insert(QStringLiteral("#808080"), Material{false, false, 0.5, 0.3, {}});
+        QCOMPARE(QColor(shaded(disc(), scene).pixel(280, 150)), QColor(128, 128, 128));
+    }
+
+    void largeDrawingsMakeSmallPictures()
+    {
+        const QImage large = disc().scaled(4000, 3000);
+        const InstantShape shape = inflateFigure(large);
+        QVERIFY(shape.count() < 160 * 130);
+        const QImage picture = shadedDrawing(large, shape, lightOn(shape, dark(20, 150, 200), {}), Scene());
+        QCOMPARE(picture.size(), QSize(1024, 768));
+    }
+
+    void thereIsNothingToLightOnAnEmptyPage()
+    {
+        QVERIFY(inflateFigure(blank()).isEmpty());
+        QVERIFY(inflateFigure(QImage()).isEmpty());
+    }
+
+    void shading_data()
+    {
+        QTest::addColumn<QSize>("size");
+        QTest::newRow("the example") << QSize(640, 720);
+        QTest::newRow("HD") << QSize(1920, 1080);
+    }
+
+    void shading()
+    {
+        QFETCH(QSize, size);
+        const QImage large = disc().scaled(size);
+        const Scene scene = defaultScene(size);
+        QBENCHMARK
+        {
+            const InstantShape shape = inflateFigure(large);
+            shadedDrawing(large, shape, lightOn(shape, scene, {}), scene);
+        }
+    }
+};
+
+QTEST_GUILESS_MAIN(InstantShadingTest)
+#include "test_instant_shading.moc"
