@@ -243,6 +243,24 @@ def test_a_rim_follows_the_part_in_front_and_not_the_one_behind() -> None:
     assert distance[50, 55] == 255
 
 
+def test_an_emissive_colour_glows_around_it_and_in_its_colour(ball: Drawing) -> None:
+    bright = Material(emission=2.0)
+    passes = Passes((flat(0.1),), flat(0))
+    plain, glowing, unlit = (
+        composite(ball, passes, scene(Look(glow=glow), default_material=material)) / 255
+        for glow, material in ((0, bright), (1, bright), (1, Material()))
+    )
+    assert np.array_equal(plain, unlit)
+    beside, far = glowing[80, 150], glowing[2, 2]
+    assert beside[3] > 0.3 > 0.1 > far[3]
+    assert beside[0] > 1.3 * beside[2]
+    assert (glowing[80, 80, :3] > plain[80, 80, :3] + 0.1).all()
+    layers = composite(
+        byte_layers_of(ball), passes, scene(Look(glow=1), default_material=bright)
+    ).astype(int)
+    assert np.abs(layers - premultiplied(np.rint(glowing * 255).astype(np.uint8))).max() <= 4
+
+
 LOOKS = [
     Look(shade_strength=0.7, contact=0.5, ink_light=0.5),
     Look(tones=(0.4,), softness=0.0, shade_strength=0.5, ink_light=1.0),

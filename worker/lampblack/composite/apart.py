@@ -40,9 +40,16 @@ def _without_rim(scene: Scene) -> Scene:
     return scene if scene.rim is None else replace(scene, rim=None)
 
 
+def _without_glow(scene: Scene) -> Scene:
+    if not scene.look.glow or not scene.brightest:
+        return scene
+    return replace(scene, look=replace(scene.look, glow=0.0))
+
+
 TERMS: tuple[tuple[str, Callable[[Scene], Scene]], ...] = (
     ("highlight", _without_gloss),
     ("rim", _without_rim),
+    ("glow", _without_glow),
 )
 """Terms that add light, lowest first: the name of each, and the scene without it."""
 

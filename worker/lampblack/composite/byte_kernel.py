@@ -12,12 +12,13 @@ from ..compiled import compiled
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
 from ..scene import Scene, default_scene
+from .bloom import bloom_of
 from .borders import swatch_albedos
 from .byte_layers import ByteLayers
 from .float_kernel import ROUNDING
 from .illumination import Illumination
 from .line import OWN_COLOUR
-from .resample import Box
+from .resample import Band, Box
 from .rim import PLAIN_RIM, RimLight, rim_share
 from .roll_off import KNEE, PALING
 from .samples import LINEAR, SRGB, encode, level, paleness_of, sample
@@ -65,6 +66,10 @@ def composite_bytes(
         _steps(crop, layers.size, illumination.floor_area or crop),
         LINEAR, SRGB, lit,
     )  # fmt: skip
+    bloom = bloom_of(layers, materials, scene, pixel)
+    if bloom is not None:
+        shown = bloom.over(lit.astype(np.float32) / 255, Band(width, height, 0, height))
+        lit = np.rint(shown * 255).astype(np.uint8)
     return lit
 
 

@@ -13,6 +13,7 @@ from ..colour import linear, srgb
 from ..drawing.drawing import Drawing
 from ..materials import MaterialTable
 from ..scene import Scene
+from .bloom import bloom_of
 from .edges import edge_distance
 from .illumination import Illumination
 from .line import lay_ink, lit_line
@@ -71,10 +72,15 @@ def _bands(
     shading = Shading.of(illumination, scene, materials, 1.0, area)
     if shading.rim is not None and edges is None:
         edges = edge_distance(drawing.mask, drawing.ink)
+    bloom = bloom_of(drawing, materials, scene, 1.0)
     for top in range(0, height, rows):
         band = Band(width, height, top, min(top + rows, height))
         rim = None if shading.rim is None or edges is None else rim_shares(shading.rim, edges, band)
-        yield band, _composite_band(_rows(drawing, band), shading, band, rim)
+        light = _composite_band(_rows(drawing, band), shading, band, rim)
+        if bloom is not None:
+            light = bloom.over(light, band)
+        colour = light[..., :3] / np.maximum(light[..., 3:], 1e-6)
+        yield band, np.clip(np.concatenate([colour, light[..., 3:]], axis=2), 0, 1)
 
 
 def _rows(drawing: Drawing, band: Band) -> Drawing:
@@ -90,6 +96,7 @@ def _rows(drawing: Drawing, band: Band) -> Drawing:
 def _composite_band(
     drawing: Drawing, shading: Shading, band: Band, rim: Floats | None
 ) -> NDArray[np.float32]:
+    """The lit rows, (h, W, 4) sRGB, premultiplied."""
     lit = _lit_colours(drawing, shading, band, rim)
     drawn = lay_ink(drawing, drawing.ink_colour, drawing.albedo)
 
@@ -108,9 +115,7 @@ def _composite_band(
     light = coverage * lit + paint
     if paper.any():
         light, alpha = _lift_off_paper(light, alpha, kept, paper > 0)
-    colour = light / np.maximum(alpha, 1e-6)
-    rgba: NDArray[np.float32] = np.clip(np.concatenate([colour, alpha], axis=2), 0, 1)
-    return rgba
+    return np.concatenate([light, alpha], axis=2)
 
 
 def _lift_off_paper(

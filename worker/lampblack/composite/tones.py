@@ -91,13 +91,13 @@ def tones_of(
     """
     look = scene.look if scene.look.tones else replace(CEL, shade_colour=scene.look.shade_colour)
     direct = add_up([(weight, light) for weight, light, _ in illumination.character])
-    full = np.float32(full_light(scene))
+    full = np.float32(full_light(scene) or (1.0 if illumination.character else 0.0))
     height, width = direct.shape[:2]
     element = max(area[2] / width, area[3] / height)
     longest = max(scene.canvas.width, scene.canvas.height)
     blur = max(0.6, SMOOTHING * longest / element)
     brightest = np.maximum(np.maximum(direct[..., 0], direct[..., 1]), direct[..., 2])
-    reach = _reach(scene, area, (height, width))
+    reach = _reach(scene, area, (height, width)) if full_light(scene) > 0 else full
     lows, highs = steps(look)
     if full > 0:
         amount = _blurred(brightest / reach, blur)
