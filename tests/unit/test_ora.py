@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from lampblack.errors import LampblackWarning, ProjectError
 from lampblack.project import read_project
+from lampblack.project.blend import Blend, blended
 from lampblack.project.shot import ProjectShot
 from lampblack.project.stack import Roles
 from lampblack.shot import MAX_LAYERS
@@ -73,7 +75,7 @@ def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, source: str) -> N
     [
         ("", 'w="900000" h="2"', "pixels"),
         ("", "", "pixels"),
-        ("", 'w="5" h="5"', "lit"),
+        ("", 'w="5" h="5"', "no layer with a picture"),
         ('<layer src="data/r.png" x="1e9"/>', 'w="5" h="5"', "no sense"),
         ('<layer src="data/r.png"/>' * 1001, 'w="5" h="5"', "1000 layers"),
         ("<stack>" * 60 + "</stack>" * 60, 'w="5" h="5"', "deep"),
@@ -88,9 +90,120 @@ def test_descriptions_that_make_no_sense_are_told(
 
 
 def test_other_ways_of_blending_are_told(tmp_path: Path) -> None:
-    stack = '<layer name="shade" src="data/r.png" composite-op="svg:multiply"/>'
+    stack = '<layer name="shade" src="data/r.png" composite-op="krita:bumpmap"/>'
     with pytest.warns(LampblackWarning, match="shade"):
         shot_of(write_ora(tmp_path, stack))
+
+
+SHADE, FIGURE = (
+    '<layer name="shade" src="data/b.png" x="5" y="5" composite-op="{}"{}/>',
+    '<layer name="figure" src="data/r.png" x="0" y="0"/>',
+)
+
+
+def painted(folder: Path, stack: str) -> np.ndarray:
+    shot = shot_of(write_ora(folder, stack))
+    picture = shot.cel(shot.frames[0]).pixels
+    return picture.astype(int)
+
+
+@pytest.mark.parametrize("isolation", ["", ' isolation="isolate"', ' isolation="auto"'])
+def test_a_clipped_layer_shows_only_on_what_is_below(tmp_path: Path, isolation: str) -> None:
+    inside = SHADE.format("svg:src-atop", "") + FIGURE
+    picture = painted(tmp_path, f"<stack{isolation}>{inside}</stack>")
+    expected = np.zeros((20, 31, 4), int)
+    expected[:10, :10] = RED[0, 0]
+    expected[5:10, 5:10] = BLUE[0, 0]
+    assert np.array_equal(picture, expected)
+
+
+def test_isolation_decides_what_a_clipped_layer_is_clipped_to(tmp_path: Path) -> None:
+    """In an isolated group of its own there is nothing below it."""
+    shade = SHADE.format("svg:src-atop", "")
+    alone = painted(tmp_path, f'<stack isolation="isolate">{shade}</stack>{FIGURE}')
+    assert alone[7, 7].tolist() == RED[0, 0].tolist()
+    passed = painted(tmp_path, f'<stack isolation="auto">{shade}</stack>{FIGURE}')
+    assert passed[7, 7].tolist() == BLUE[0, 0].tolist()
+
+
+def test_the_opacity_of_a_group_is_that_of_the_whole(tmp_path: Path) -> None:
+    """What one of its layers hides does not show through."""
+    over = SHADE.format("svg:src-over", "")
+    picture = painted(tmp_path, f'<stack opacity="0.5">{over}{FIGURE}</stack>')
+    assert picture[7, 7].tolist() == [0, 0, 200, 128]
+
+
+UNDER, OVER = (80, 220, 0, 255), (200, 100, 0, 255)
+MIXED = {  # of 200 and 100 over 80 and 220, by hand
+    "multiply": (200 * 80 / 255, 100 * 220 / 255),
+    "screen": (200 + 80 - 200 * 80 / 255, 100 + 220 - 100 * 220 / 255),
+    "overlay": (2 * 200 * 80 / 255, 255 - 2 * 155 * 35 / 255),
+    "hard-light": (255 - 2 * 55 * 175 / 255, 2 * 100 * 220 / 255),
+    "darken": (80, 100),
+    "lighten": (200, 220),
+    "difference": (120, 120),
+    "color-dodge": (255, 255),
+    "color-burn": (255 - 175 * 255 / 200, 255 - 35 * 255 / 100),
+    "plus": (255, 255),
+}
+
+
+@pytest.mark.parametrize("mode", MIXED)
+def test_colours_are_blended_as_w3c_says(mode: Any) -> None:
+    below, above = (
+        np.full((1, 1, 4), c, np.uint8) for c in ((80, 220, 0, 255), (200, 100, 0, 255))
+    )
+    result = blended(below, above, mode, 1)[0, 0]
+    assert np.abs(result[:2] - np.array(MIXED[mode])).max() <= 0.51
+    half = blended(below, above, mode, 0.5)[0, 0]
+    if mode != "plus":
+        assert np.abs(half[:2] - np.mean([MIXED[mode], UNDER[:2]], axis=0)).max() <= 0.51
+    nothing = np.zeros_like(below)
+    assert np.array_equal(blended(nothing, above, mode, 1), above)
+    assert np.array_equal(blended(below, nothing, mode, 1), below)
+    clipped = blended(nothing, above, mode, 1, clipped=True)
+    assert not clipped[..., 3].any()
+
+
+def test_hue_and_saturation_keep_the_luma_below() -> None:
+    rng = np.random.default_rng(3)
+    below, above = (rng.integers(0, 256, (40, 40, 4)).astype(np.uint8) for _ in "ab")
+    below[..., 3] = above[..., 3] = 255
+    luma = np.array([0.3, 0.59, 0.11])
+    modes: tuple[Blend, ...] = ("hue", "saturation", "color")
+    for mode in modes:
+        result = blended(below, above, mode, 1)
+        assert np.abs(result[..., :3] @ luma - below[..., :3] @ luma).max() < 1
+    result = blended(below, above, "luminosity", 1)
+    assert np.abs(result[..., :3] @ luma - above[..., :3] @ luma).max() < 1
+
+
+def test_masks_cut_what_is_below() -> None:
+    below, above = np.full((1, 1, 4), (9, 8, 7, 200), np.uint8), np.full((1, 1, 4), 102, np.uint8)
+    assert blended(below, above, "dst-in", 1)[0, 0].tolist() == [9, 8, 7, 80]
+    assert blended(below, above, "dst-out", 1)[0, 0].tolist() == [9, 8, 7, 120]
+    assert blended(below, above, "dst-atop", 1)[0, 0, 3] == 102
+
+
+def test_a_layer_that_touches_up_is_no_body(tmp_path: Path) -> None:
+    stack = '<layer name="arm" src="data/g.png" x="12" y="6"/>' + SHADE.format("svg:multiply", "")
+    shot = shot_of(write_ora(tmp_path, stack + FIGURE))
+    figure, arm = shot.cel(shot.frames[0]).layers
+    assert (figure.name, arm.name) == ("figure", "arm")
+    assert figure.placed((31, 20))[7, 7].tolist() == [0, 0, 0, 255]
+
+
+def test_text_and_vectors_are_left_out(tmp_path: Path) -> None:
+    with pytest.warns(LampblackWarning, match="'title' are text or vectors"):
+        picture = painted(tmp_path, '<layer name="title" src="data/layer1.svg"/>' + FIGURE)
+    assert picture[..., 3].sum() == 100 * 255
+
+
+def test_the_same_file_has_the_same_drawing(tmp_path: Path) -> None:
+    """Whatever else was read before: finished pictures are known by it."""
+    path = write_ora(tmp_path, f"<stack>{SHADE.format('svg:screen', '')}{FIGURE}</stack>")
+    first, second = shot_of(path), shot_of(path)
+    assert first.frames[0].drawing == second.frames[0].drawing
 
 
 def test_lit_layers_are_kept_apart(tmp_path: Path) -> None:

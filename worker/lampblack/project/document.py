@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from ..camera import Affine
+from .blend import Blend
 
 Kind = Literal["bitmap", "vector"]
 
@@ -43,14 +44,37 @@ class Key:
 
 
 @dataclass(frozen=True)
+class Group:
+    """Layers that are painted together on nothing, and then blended with what is below."""
+
+    number: int
+    opacity: float = 1.0
+    blend: Blend = "normal"
+
+
+@dataclass(frozen=True)
 class Layer:
-    """A layer of drawings; ``keys`` by frame. Hidden layers are not shown."""
+    """A layer of drawings; ``keys`` by frame. Hidden layers are not shown.
+
+    Attributes:
+        blend: how it is blended with what is below.
+        clipped: it shows only where what is below is.
+        groups: the groups that it is in, outermost first.
+    """
 
     number: int
     name: str
     kind: Kind
     visible: bool
     keys: tuple[Key, ...]
+    blend: Blend = "normal"
+    clipped: bool = False
+    groups: tuple[Group, ...] = ()
+
+    @property
+    def touches_up(self) -> bool:
+        """Whether it changes what is below rather than covering it."""
+        return self.clipped or self.blend != "normal"
 
     def key_at(self, frame: int) -> Key | None:
         """The drawing that ``frame`` shows; None before the first key."""

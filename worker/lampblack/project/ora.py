@@ -9,39 +9,48 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import count
+from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from ..errors import LampblackWarning, ProjectError
 from .attributes import check_size, number, sound_xml, whole
-from .document import Camera, CameraKey, Key, Layer, Project
+from .blend import BLENDS, Blend
+from .document import Camera, CameraKey, Group, Key, Layer, Project
 
 FOLDER = "data/"
 MAX_LAYERS = 1000
 MAX_DEPTH = 50
 PLAIN = "svg:src-over"
+OPERATIONS: dict[str, tuple[Blend, bool]] = {
+    PLAIN: ("normal", False),
+    "svg:src-atop": ("normal", True),
+    **{f"svg:{blend}": (blend, False) for blend in BLENDS if blend != "normal"},
+}
+"""Blend mode, and whether it clips, of each ``composite-op``."""
 
 
 @dataclass(frozen=True)
-class _Group:
-    """Position, opacity and visibility that a stack gives to the layers in it."""
+class _Place:
+    """Position and visibility that a stack gives to the layers in it, and the groups that it
+    is in."""
 
     left: int = 0
     top: int = 0
-    opacity: float = 1.0
     visible: bool = True
     depth: int = 0
+    groups: tuple[Group, ...] = ()
 
 
 def parse_stack(xml: bytes, name: str) -> Project:
-    """The project that a ``stack.xml`` describes; ``name`` is for the errors. Groups are resolved:
-    their opacity, position and visibility are applied to their layers.
+    """The project that a ``stack.xml`` describes; ``name`` is for the errors.
 
     Raises:
         ProjectError: the XML is damaged, or a value makes no sense.
 
     Warns:
-        LampblackWarning: layers have a blend mode that is not supported.
+        LampblackWarning: layers have a blend mode that is not known, or are no pictures.
     """
     root = sound_xml(xml, name)
     stack = root.find("stack")
@@ -51,40 +60,67 @@ def parse_stack(xml: bytes, name: str) -> Project:
     check_size(width, height, name)
     if sum(1 for _ in root.iter("layer")) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
-    blended = {e.get("name", "") for e in stack.iter() if e.get("composite-op", PLAIN) != PLAIN}
-    if blended:
-        named = ", ".join(map(repr, sorted(blended)[:8]))
-        warnings.warn(
-            f"{name}: {named} have blend modes that Lampblack does not know; they are shown as "
-            "if they had none.",
-            LampblackWarning,
-            stacklevel=2,
-        )
-    # Keys are positioned relative to the middle of the canvas, as in Pencil2D.
-    found = list(_layers(stack, _Group(-(width // 2), -(height // 2)), name))
-    layers = tuple(
-        Layer(number, label or f"Layer {number}", "bitmap", visible, (key,))
-        for number, (label, visible, key) in enumerate(reversed(found), start=1)
+    unknown = {e.get("name", "") for e in stack.iter() if _operation(e) not in OPERATIONS}
+    _tell(
+        unknown,
+        f"{name}: ",
+        "have blend modes that Lampblack does not know; they are shown as if they had none",
     )
+    # Keys are positioned relative to the middle of the canvas, as in Pencil2D.
+    found = list(_layers(stack, _Place(-(width // 2), -(height // 2)), name, count()))
+    _tell(
+        {layer.name for layer in found if not _is_picture(layer)},
+        f"{name}: ",
+        "are text or vectors, which are left out. Turn them into pixels to see them",
+    )
+    layers = tuple(
+        replace(layer, number=number, name=layer.name or f"Layer {number}")
+        for number, layer in enumerate(reversed(found), start=1)
+        if _is_picture(layer)
+    )
+    if not layers:
+        raise ProjectError(f"{name} has no layer with a picture.", "Draw something on one.")
     return Project(layers, (Camera("Canvas", width, height, (CameraKey(1),)),), 1, 1)
 
 
-def _layers(stack: Element, group: _Group, name: str) -> Iterator[tuple[str, bool, Key]]:
-    """Name, visibility and picture of each layer, topmost first."""
-    if group.depth > MAX_DEPTH:
+def _tell(names: set[str], before: str, after: str) -> None:
+    if names:
+        named = ", ".join(map(repr, sorted(names)[:8]))
+        warnings.warn(f"{before}{named} {after}.", LampblackWarning, stacklevel=3)
+
+
+def _layers(stack: Element, place: _Place, name: str, numbers: Iterator[int]) -> Iterator[Layer]:
+    """The layers, topmost first; ``numbers`` are for groups."""
+    if place.depth > MAX_DEPTH:
         raise ProjectError(f"{name} has groups in groups, {MAX_DEPTH} deep.")
     for element in stack:
-        inner = _Group(
-            group.left + whole(element, "x", 0),
-            group.top + whole(element, "y", 0),
-            group.opacity * min(1.0, max(0.0, number(element, "opacity", 1.0))),
-            group.visible and element.get("visibility", "visible") == "visible",
-            group.depth + 1,
+        opacity = min(1.0, max(0.0, number(element, "opacity", 1.0)))
+        blend, clipped = OPERATIONS.get(_operation(element), ("normal", False))
+        inner = _Place(
+            place.left + whole(element, "x", 0),
+            place.top + whole(element, "y", 0),
+            place.visible and element.get("visibility", "visible") == "visible",
+            place.depth + 1,
+            place.groups,
         )
         if element.tag == "stack":
-            yield from _layers(element, inner, name)
+            if opacity < 1 or blend != "normal" or element.get("isolation") != "auto":
+                group = Group(next(numbers), opacity, blend)
+                inner = replace(inner, groups=(*place.groups, group))
+            yield from _layers(element, inner, name, numbers)
         elif element.tag == "layer":
             # Pictures are in one folder; a name that leads out of it is refused on reading.
             file = element.get("src", "").removeprefix(FOLDER)
-            key = Key(1, file, inner.left, inner.top, inner.opacity)
-            yield element.get("name", "")[:200], inner.visible, key
+            key = Key(1, file, inner.left, inner.top, opacity)
+            clipped |= element.get("alpha-preserve") == "true"
+            label = element.get("name", "")[:200]
+            yield Layer(0, label, "bitmap", inner.visible, (key,), blend, clipped, inner.groups)
+
+
+def _operation(element: Element) -> str:
+    return element.get("composite-op", PLAIN)
+
+
+def _is_picture(layer: Layer) -> bool:
+    (key,) = layer.keys
+    return Path(key.file).suffix.lower() not in (".svg", ".svgz", ".txt", ".html")

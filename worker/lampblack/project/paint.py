@@ -6,6 +6,7 @@ import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,8 @@ from ..cache import digest
 from ..drawing import read_picture
 from ..errors import DrawingError, ProjectError
 from .archive import Archive
-from .document import Key, Layer
+from .blend import Blend, blended
+from .document import Group, Key, Layer
 from .region import Region
 from .vector import PALETTE, VectorPictures
 
@@ -44,13 +46,25 @@ class LayerPainter:
         Raises:
             ProjectError: a picture is missing or damaged.
         """
-        region = self.region
-        canvas = Image.new("RGBA", (region.width, region.height))
-        for layer in layers:
-            key = layer.key_at(frame)
-            if key is not None and not key.blank:
-                self._lay(canvas, layer, key)
-        return np.array(canvas)
+        return np.array(self._group(layers, frame, 0))
+
+    def _group(self, layers: Sequence[Layer], frame: int, depth: int) -> Image.Image:
+        """``layers``, which share the groups down to ``depth``."""
+        canvas = Image.new("RGBA", (self.region.width, self.region.height))
+
+        def inner(layer: Layer) -> Group | None:
+            return layer.groups[depth] if len(layer.groups) > depth else None
+
+        for group, members in groupby(layers, inner):
+            if group is not None:
+                painted = self._group(list(members), frame, depth + 1)
+                _lay_on(canvas, np.asarray(painted), (0, 0), group.blend, group.opacity)
+                continue
+            for layer in members:
+                key = layer.key_at(frame)
+                if key is not None and not key.blank:
+                    self._lay(canvas, layer, key)
+        return canvas
 
     def fingerprint(self, layers: Sequence[Layer], frame: int) -> str:
         """A digest of all that determines the result of ``paint``."""
@@ -60,6 +74,8 @@ class LayerPainter:
             if key is not None and not key.blank:
                 content = key.inline or self._digest(key.file)
                 shown += [layer.kind, key.left, key.top, key.opacity, content]
+                if layer.touches_up or layer.groups:
+                    shown.append(repr((layer.blend, layer.clipped, layer.groups)))
                 if layer.kind == "vector":
                     shown.append(self._digest(PALETTE))
         return digest(*shown)
@@ -81,10 +97,8 @@ class LayerPainter:
         picture = picture[: max(0, canvas.height - top), : max(0, canvas.width - left)]
         if not picture.size:
             return
-        if key.opacity < 1:
-            picture = picture.copy()
-            picture[..., 3] = np.rint(picture[..., 3] * key.opacity)
-        canvas.alpha_composite(Image.fromarray(picture), (max(0, left), max(0, top)))
+        place = max(0, left), max(0, top)
+        _lay_on(canvas, picture, place, layer.blend, key.opacity, clipped=layer.clipped)
 
     def _placed(self, picture: Picture, key: Key) -> tuple[Picture, int, int]:
         """A bitmap in the region's pixels, and its place there."""
@@ -106,6 +120,29 @@ class LayerPainter:
             except ProjectError as error:  # reported when the frame is painted
                 self._digests[name] = digest(name, str(error))
         return self._digests[name]
+
+
+def _lay_on(
+    canvas: Image.Image,
+    picture: Picture,
+    place: tuple[int, int],
+    blend: Blend,
+    opacity: float,
+    *,
+    clipped: bool = False,
+) -> None:
+    """Paint ``picture`` on ``canvas``, with its corner at ``place``."""
+    if blend == "normal" and not clipped:
+        if opacity < 1:
+            picture = picture.copy()
+            picture[..., 3] = np.rint(picture[..., 3] * opacity)
+        canvas.alpha_composite(Image.fromarray(picture), place)
+        return
+    whole = np.zeros((canvas.height, canvas.width, 4), np.uint8)
+    left, top = place
+    whole[top : top + picture.shape[0], left : left + picture.shape[1]] = picture
+    below = np.asarray(canvas)
+    canvas.paste(Image.fromarray(blended(below, whole, blend, opacity, clipped=clipped)))
 
 
 def _reduced(picture: Picture, left: float, top: float, scale: float) -> tuple[Picture, int, int]:

@@ -88,13 +88,18 @@ class ProjectShot:
         return Cel(pixels, ink=ink, layers=self._layers(number))
 
     def _layers(self, number: int) -> tuple[CelLayer, ...]:
-        """The lit layers apart, but for those that show nothing. None if there is only one, or
-        more than ``MAX_LAYERS``."""
-        shown = [layer for layer in self._stack.lit if _is_drawn(layer, number)]
+        """The lit layers apart, but for those that show nothing; one that touches up what is
+        below belongs to it. None if there is only one, or more than ``MAX_LAYERS``."""
+        bodies: list[list[Layer]] = []
+        for layer in self._stack.lit:
+            if bodies and layer.touches_up:
+                bodies[-1].append(layer)
+            elif _is_drawn(layer, number):
+                bodies.append([layer])
         found: list[CelLayer] = []
-        for layer in shown if len(shown) > 1 else []:
-            picture = self._painter.paint([layer], number)
-            drawn = cropped_layer(layer.name, picture, line=layer in self._stack.line)
+        for first, *others in bodies if len(bodies) > 1 else []:
+            picture = self._painter.paint([first, *others], number)
+            drawn = cropped_layer(first.name, picture, line=first in self._stack.line)
             found += [] if drawn is None else [drawn]
             if len(found) > MAX_LAYERS:
                 return ()

@@ -60,7 +60,7 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
     if not lit:
         raise ProjectError(
             "None of the visible layers of the project is lit.",
-            "Name one with --character, or show it in Pencil2D.",
+            "Name one with --character, or make it visible in your drawing program.",
             f"Layers: {_names(project)}",
         )
     shown = [layer for layer in drawn if layer in lit or layer.visible]
