@@ -2,6 +2,7 @@
 #include "scene/json_writer.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -36,6 +37,19 @@ public:
 
     void boolean(const char* /*name*/, bool& /*value*/, Need /*need*/) {}
     template <class... Rule> void text(const char* /*name*/, QString& /*value*/, const Rule&... /*rule*/) {}
+    void texts(const char* /*name*/, QStringList& values, int most, int longest,
+               const QRegularExpression& pattern, Need /*need*/ = Need::Required)
+    {
+        const auto wrong = [&](const QString& value)
+        {
+            return value.size() > longest || !pattern.match(value).hasMatch();
+        };
+        values.erase(std::remove_if(values.begin(), values.end(), wrong), values.end());
+        while (values.size() > most)
+        {
+            values.removeLast();
+        }
+    }
     template <class Enum, class... Rule>
     void choice(const char* /*name*/, Enum& /*value*/, const Rule&... /*rule*/)
     {

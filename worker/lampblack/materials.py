@@ -22,8 +22,8 @@ class MaterialTable:
         gloss: (n + 1,) float32 in 0..1, amount of the glossy lobe; 0 where not glossy.
         roughness: (n + 1,) float32 in 0.02..1.
         cel: (n + 1,) bool, lit in tones.
-        glow: (n + 1,) float32 in 0..1, emission as a share of the scene's largest; none past the
-            edge.
+        emission: (n + 1,) float32; none past the edge. glow: the same in 0..1, as a share of the
+            scene's largest.
         key: all that affects traced light, except the amounts of gloss.
         amounts: ``gloss`` as a comparable value.
     """
@@ -33,6 +33,7 @@ class MaterialTable:
     gloss: NDArray[np.float32]
     roughness: NDArray[np.float32]
     cel: NDArray[np.bool_]
+    emission: NDArray[np.float32]
     glow: NDArray[np.float32]
     key: Hashable
     amounts: tuple[float, ...]
@@ -42,15 +43,15 @@ class MaterialTable:
         """The materials of flat ``colours``, ``#rrggbb`` in the order of their labels."""
         materials = [*map(scene.material, colours), scene.default_material]
         amounts = tuple(m.gloss if m.glossy else 0.0 for m in materials)
-        brightest = scene.brightest
-        glow = [m.emission / brightest if brightest else 0.0 for m in materials[:-1]]
+        emission = np.array([*(m.emission for m in materials[:-1]), 0.0], np.float32)
         return MaterialTable(
             diffuse=np.array([m.diffuse for m in materials], np.bool_),
             glossy=np.array([m.glossy for m in materials], np.bool_),
             gloss=np.array(amounts, np.float32),
             roughness=np.array([m.roughness for m in materials], np.float32),
             cel=np.array([_in_tones(m, scene) for m in materials], np.bool_),
-            glow=np.array([*glow, 0.0], np.float32),
+            emission=emission,
+            glow=emission / np.float32(scene.brightest or 1),
             key=tuple(
                 (amount > 0, traced_part(material, Affects.GLOSS))
                 for amount, material in zip(amounts, materials, strict=True)

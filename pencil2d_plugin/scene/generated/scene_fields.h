@@ -33,6 +33,7 @@ constexpr std::array<Choice<LookChoice>, 3> LookChoiceChoices = {
 struct Patterns
 {
     QRegularExpression colour{QStringLiteral(R"(^#[0-9a-f]{6}$(?!\n))")};
+    QRegularExpression layers{QStringLiteral(R"(^[^\x00-\x1f\x7f]*$(?!\n))")};
 };
 
 inline const Patterns& patterns()
@@ -73,6 +74,8 @@ template <class Fields> void describe(Fields& fields, AreaLight& value)
     fields.text("name", value.name, 0, 80, Need::Optional);
     fields.boolean("on", value.on, Need::Optional);
     fields.boolean("solo", value.solo, Need::Optional);
+    fields.texts("colours", value.colours, 64, 7, patterns().colour, Need::Optional);
+    fields.texts("layers", value.layers, 16, 200, patterns().layers, Need::Optional);
     fields.listIfAny("keys", value.keys, 128);
     fields.rest(value.extra);
 }

@@ -22,8 +22,9 @@ bool operator==(const LightKey& a, const LightKey& b)
 bool operator==(const AreaLight& a, const AreaLight& b)
 {
     return std::tie(a.x, a.y, a.z, a.size, a.colour, a.power, a.kind, a.castsShadow, a.name, a.on, a.solo,
-                    a.keys, a.extra) == std::tie(b.x, b.y, b.z, b.size, b.colour, b.power, b.kind,
-                                                 b.castsShadow, b.name, b.on, b.solo, b.keys, b.extra);
+                    a.colours, a.layers, a.keys,
+                    a.extra) == std::tie(b.x, b.y, b.z, b.size, b.colour, b.power, b.kind, b.castsShadow,
+                                         b.name, b.on, b.solo, b.colours, b.layers, b.keys, b.extra);
 }
 
 bool operator==(const Ambient& a, const Ambient& b)

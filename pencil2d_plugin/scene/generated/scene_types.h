@@ -97,6 +97,9 @@ struct LightKey
 ///
 /// Without `casts_shadow` it shines through the character, onto what faces it.
 ///
+/// With `colours` or `layers` it lights only these flat colours and these layers of the character, and not
+/// the floor.
+///
 /// Only lights that are `on` shine, and only those with `solo` if one of them has it.
 ///
 /// With `keys`, in any order, it changes from each to the next, and holds before the first and after the
@@ -115,6 +118,8 @@ struct AreaLight
     QString name = {}; ///< for people
     bool on = true;
     bool solo = false;
+    QStringList colours = {};
+    QStringList layers = {};
     QVector<LightKey> keys = {}; ///< 128 at most
     QJsonObject extra = {};
 };

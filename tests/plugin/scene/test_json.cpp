@@ -141,6 +141,7 @@ void SceneJson::clampedIsReadable()
     wild.lights[1].z = std::nan("");
     wild.lights[2].power = INFINITY;
     wild.lights[3].size = 0;
+    wild.lights[3].colours = QStringList{QStringLiteral("red"), QStringLiteral("#00ff00")};
     wild.ambient.colour = QColor::fromHsvF(0.3, 0.5, 0.5, 0.5);
     wild.ambient.strength = -1;
     wild.materials.insert(QStringLiteral("no colour"), Material());
@@ -152,6 +153,7 @@ void SceneJson::clampedIsReadable()
     QCOMPARE(tame.lights[0].x, -1e5);
     QCOMPARE(tame.lights[2].power, 100.0);
     QCOMPARE(tame.lights[3].size, 1.0);
+    QCOMPARE(tame.lights[3].colours, QStringList{QStringLiteral("#00ff00")});
     QCOMPARE(sizeOf(tame.canvas), QSize(65536, 1));
     QCOMPARE(tame.materials.keys(), QStringList(QStringLiteral("#00ff00")));
     QCOMPARE(tame.floor->pitch, 85.0);

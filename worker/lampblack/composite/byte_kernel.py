@@ -18,7 +18,7 @@ from .byte_layers import ByteLayers
 from .float_kernel import ROUNDING
 from .illumination import Illumination
 from .line import OWN_COLOUR
-from .resample import Band, Box
+from .resample import Band, Box, enlarge
 from .rim import PLAIN_RIM, RimLight, rim_share
 from .roll_off import KNEE, PALING
 from .samples import LINEAR, SRGB, encode, level, paleness_of, sample
@@ -28,6 +28,7 @@ from .tones import Tones, step_share
 Floats = NDArray[np.float32]
 
 _DIFFUSE, _GLOSSY, _BOTH, _CEL = np.uint8(1), np.uint8(2), np.uint8(3), np.uint8(4)
+_GLOW = np.uint8(8)
 _UNIT = np.ones((1, 1, 3), np.float32)
 _UNSHADED = np.ones((1, 1), np.bool_)
 
@@ -44,6 +45,7 @@ def composite_bytes(
     materials = MaterialTable.of(scene, layers.palette.colours)
     kinds = materials.diffuse * _DIFFUSE + materials.glossy * _GLOSSY
     kinds += np.where(kinds > 0, materials.cel * _CEL, np.uint8(0))
+    kinds += (materials.emission > 0) * _GLOW
     height, width = layers.ink.shape
     area = illumination.character_area or crop
     pixel = max(crop[2] / width, crop[3] / height)
@@ -54,11 +56,12 @@ def composite_bytes(
     _light(
         layers.pixels, layers.albedo, layers.ink, layers.ink_colour, layers.coverage,
         layers.labels, layers.others, layers.shares,
-        swatch_albedos(layers.palette), kinds, materials.gloss,
+        swatch_albedos(layers.palette), kinds, materials.gloss, materials.emission,
         illumination.diffuse if (smooth & (kinds & _DIFFUSE > 0)).any() else _UNIT,
         illumination.glossy if (smooth & (kinds & _BOTH == _GLOSSY)).any() else _UNIT,
         illumination.sheen if (smooth & (kinds & _BOTH == _BOTH)).any() else _UNIT,
         _steps(crop, layers.size, area), _tone_arguments(shading.tones),
+        _part_arguments(illumination, layers),
         contact is not None, _UNIT if contact is None else contact,
         _rim_arguments(shading.rim, layers, crop), np.float32(shading.ink_light),
         _UNIT if ratio is None else ratio,
@@ -84,6 +87,28 @@ def _tone_arguments(tones: Tones | None) -> tuple[Any, ...]:
         tones.amount, tones.shine, tones.lit, tones.shade, tones.lows, tones.highs,
         tones.highlight[:1], tones.highlight[1:], tones.tint, tones.strength,
     )  # fmt: skip
+
+
+def _part_arguments(illumination: Illumination, layers: ByteLayers) -> tuple[Any, ...]:
+    """Light on parts of the character: their number, diffuse and glossy light, which labels and
+    which layers each reaches, and the layer of each pixel."""
+    parts = illumination.parts
+    if not parts:
+        none = np.zeros((1, 1), np.bool_)
+        return 0, _UNIT[None], _UNIT[None], none, none, np.zeros((1, 1), np.int8)
+    owners = layers.owners
+    if owners is None:
+        owners = np.full(layers.labels.shape, -1, np.int8)
+    size = max((light.shape for _, light, _ in parts), key=lambda shape: shape[0] * shape[1])
+    band = Band(size[1], size[0], 0, size[0])
+    return (
+        len(parts),
+        np.stack([enlarge(light, band) for _, light, _ in parts]),
+        np.stack([enlarge(light, band) for _, _, light in parts]),
+        np.stack([link.labels(layers.palette) for link, _, _ in parts]),
+        np.stack([link.owners(layers.layers) for link, _, _ in parts]),
+        owners,
+    )
 
 
 def _rim_arguments(rim: RimLight | None, layers: ByteLayers, crop: Box) -> tuple[Any, ...]:
@@ -126,9 +151,9 @@ def _steps(crop: Box, size: tuple[int, int], area: Box) -> tuple[float, float, f
 def _light(
     pixels: Any, albedo: Any, ink: Any, ink_colour: Any, coverage: Any,
     labels: Any, others: Any, shares: Any,
-    swatches: Any, kinds: Any, gloss: Any,
+    swatches: Any, kinds: Any, gloss: Any, emission: Any,
     diffuse: Any, glossy: Any, sheen: Any, on_figure: Any,
-    tones: Any, has_contact: bool, contact: Any, rim_light: Any, ink_light: Any,
+    tones: Any, linked: Any, has_contact: bool, contact: Any, rim_light: Any, ink_light: Any,
     floor: Any, unshaded: Any, has_floor: bool, on_ground: Any,
     to_linear: Any, to_srgb: Any, lit: Any,
 ) -> None:  # fmt: skip
@@ -136,6 +161,7 @@ def _light(
     shine_lows, shine_highs, tint, tint_strength = tones[6:]
     across_px, down_px = on_figure[0], on_figure[2]
     has_rim, edges, rim, key, rim_colour = rim_light
+    parts, part_light, part_shine, reached, reached_layers, owners = linked
     byte, one, zero = np.float32(1 / 255), np.float32(1), np.float32(0)
     colourless, taken = np.float32(PLAIN_RIM), np.float32(OWN_COLOUR)
     fill, shown = np.zeros(3, np.float32), np.zeros(3, np.float32)
@@ -186,6 +212,10 @@ def _light(
                                 dark = one - min(max(level(amount, u, v), zero), one)
                                 for c in range(3):
                                     light[c] += tint_strength * dark * (tint[c] - light[c])
+                        for link in range(parts):
+                            if reached[link, worn] and reached_layers[link, owners[row, column]]:
+                                for c in range(3):
+                                    light[c] += sample(part_light[link], u, v, c)
                         if has_contact:
                             for c in range(3):
                                 light[c] *= near
@@ -205,14 +235,22 @@ def _light(
                             tone = near
                         for c in range(3):
                             gleam[c] *= tone
+                        for link in range(parts):
+                            if reached[link, worn] and reached_layers[link, owners[row, column]]:
+                                for c in range(3):
+                                    gleam[c] += near * sample(part_shine[link], u, v, c)
                     for c in range(3):
                         base = to_linear[albedo[row, column, c]]
                         theirs = min(base, share * swatches[other, c])
                         paint = theirs if second else base - theirs
                         if not second:
                             unlit[c] = zero
-                        if kind == 0:
+                        if kind & 11 == 0:
                             unlit[c] += paint
+                        if kind & 8:
+                            fill[c] += paint * emission[worn]
+                            if kind & 3 == 0:
+                                fill[c] += paint
                         if kind & 1:
                             fill[c] += paint * light[c]
                         if kind & 2:
@@ -228,7 +266,7 @@ def _light(
                 pale = over * over / (over * over + np.float32(PALING * PALING))
                 for c in range(3):
                     fill[c] = fill[c] * scale + pale * (bent - fill[c] * scale)
-            if has_rim and touched and kinds[label] != 0:
+            if has_rim and touched and kinds[label] & 3:
                 edge = rim_share(
                     edges, row, column, rim[0], rim[1], rim[2], rim[3], rim[4],
                     key[0] - (column + 0.5) * key[2], key[1] - (row + 0.5) * key[3],
@@ -242,7 +280,7 @@ def _light(
             pale = zero
             if line > 0 and touched and kinds[label] & 1:
                 pale = max(paleness_of(ink_colour[row, column]), ink_light)
-                if share > 0 and kinds[label] != kinds[other]:
+                if share > 0 and (parts > 0 or kinds[label] != kinds[other]):
                     if kinds[label] & 4:
                         tone = step_share(amount, u, v, across_px, down_px, lows, highs)
                     for c in range(3):
@@ -250,6 +288,9 @@ def _light(
                             light[c] = shade[c] + tone * (sample(toned, u, v, c) - shade[c])
                         else:
                             light[c] = sample(diffuse, u, v, c)
+                        for link in range(parts):
+                            if reached[link, label] and reached_layers[link, owners[row, column]]:
+                                light[c] += sample(part_light[link], u, v, c)
                         light[c] *= near
             ground_alpha = behind
             darkest = one

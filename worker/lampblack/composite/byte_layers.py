@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from .borders import mixed_labels
 from .resample import Box
 
 Bytes = NDArray[np.uint8]
+Label = TypeVar("Label", np.int8, np.int16)
 _FARTHEST = 12
 _LINEAR = linear(np.arange(256) / 255)
 
@@ -35,6 +37,7 @@ class ByteLayers:
         palette: the flat colours.
         edges: (H, W) uint8, see ``edge_distance``, and ``edge_unit``, the pixels of the drawing for
             1 in it. None where there is no rim.
+        owners, layers: see ``Drawing``.
     """
 
     pixels: Bytes
@@ -48,6 +51,8 @@ class ByteLayers:
     palette: Palette
     edges: Bytes | None = None
     edge_unit: float = 0.0
+    owners: NDArray[np.int8] | None = None
+    layers: tuple[str, ...] = ()
 
     @property
     def size(self) -> tuple[int, int]:
@@ -85,6 +90,8 @@ class ByteLayers:
             palette=self.palette,
             edges=None if self.edges is None else _resized(self.edges, place, size),
             edge_unit=self.edge_unit,
+            owners=None if self.owners is None else _nearest(self.owners, place, size),
+            layers=self.layers,
         )
 
 
@@ -101,6 +108,8 @@ def byte_layers_of(drawing: Drawing) -> ByteLayers:
         others=others,
         shares=shares,
         palette=drawing.palette,
+        owners=drawing.owners,
+        layers=drawing.layers,
     )
 
 
@@ -155,10 +164,8 @@ def _resized(layer: Bytes, place: _Place | None, size: tuple[int, int]) -> Bytes
     return whole
 
 
-def _nearest(
-    labels: NDArray[np.int16], place: _Place | None, size: tuple[int, int]
-) -> NDArray[np.int16]:
-    whole = np.full((size[1], size[0]), -1, np.int16)
+def _nearest(labels: NDArray[Label], place: _Place | None, size: tuple[int, int]) -> NDArray[Label]:
+    whole = np.full((size[1], size[0]), -1, labels.dtype)
     if place is not None:
         x0, y0, x1, y1 = place.box
         (left, top), (width, height) = place.at, place.size

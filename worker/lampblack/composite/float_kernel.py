@@ -17,7 +17,7 @@ from .bloom import bloom_of
 from .edges import edge_distance
 from .illumination import Illumination
 from .line import lay_ink, lit_line
-from .reflection import light_at, reflected_light
+from .reflection import emitted_light, light_at, reflected_light
 from .resample import Band, enlarge
 from .rim import PLAIN_RIM, rim_shares
 from .roll_off import roll_off
@@ -145,6 +145,9 @@ def _lit_colours(
     albedo, diffuse = linear(drawing.albedo), shading.materials.diffuse[drawing.labels]
     light = light_at(drawing, shading, band)
     paint, gloss, unlit = reflected_light(drawing, shading, light)
+    if (emitted := emitted_light(drawing, shading.materials)) is not None:
+        given, own = emitted
+        paint, unlit = paint + given, unlit - own
     fill = roll_off(paint + gloss, albedo)
     if rim is not None and shading.rim is not None:
         lit = (diffuse | shading.materials.glossy[drawing.labels])[..., None]

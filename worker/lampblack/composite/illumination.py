@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ..choices import GlowName
 from ..colour import hex_linear
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene, shining
+from .linking import Link
 from .resample import Band, Box, enlarge
 
 VEIL = np.float32(0.1)
@@ -33,12 +34,22 @@ light of the character, or the floor's light with the character and without it."
 _DARK = np.zeros((1, 1, 3), np.float32)
 
 
+class Source(NamedTuple):
+    """A source of light: its weight, (3,) scene-linear, its passes, and what it lights; None is
+    everything."""
+
+    weight: Floats
+    light: LightPasses
+    link: Link | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class Illumination:
     """The sources of light on a drawing. Their sums are computed when they are needed.
 
     Attributes:
         character: the lights on the character. ambient: the ambient light on it, if it has power.
+        linked: lights that light only a part of it, by that part.
         floor: the sources on the floor, if there is one.
         openness: (h, w, 3), the ambient light of strength 1 on the character, if it was traced.
         character_area, floor_area: the part of the drawing that they cover, in its pixels; None
@@ -51,6 +62,7 @@ class Illumination:
     openness: Floats | None = None
     character_area: Box | None = None
     floor_area: Box | None = None
+    linked: Mapping[Link, Sequence[Weighted]] = field(default_factory=dict)
 
     @staticmethod
     def of(passes: Passes, scene: Scene) -> Illumination:
@@ -58,23 +70,29 @@ class Illumination:
         return Illumination.sum_of(weigh(passes, scene), passes.ambient)
 
     @staticmethod
-    def sum_of(
-        sources: Sequence[tuple[Floats, LightPasses]], ambient: LightPasses | None = None
-    ) -> Illumination:
+    def sum_of(sources: Sequence[Source], ambient: LightPasses | None = None) -> Illumination:
         """Light passes that cover the whole drawing, with their weights; ``ambient`` is the one
         of them that is not a light's."""
-        found = [(weight, light.diffuse, light.glossy) for weight, light in sources]
-        around = [one for one, (_, light) in zip(found, sources, strict=True) if light is ambient]
-        return Illumination(
-            [one for one, (_, light) in zip(found, sources, strict=True) if light is not ambient],
-            around[0] if around else None,
-            [
-                (weight, light.floor, light.open_floor)
-                for weight, light in sources
-                if light.floor is not None and light.open_floor is not None
-            ],
-            None if ambient is None else ambient.diffuse,
-        )
+        lights: list[Weighted] = []
+        linked: dict[Link, list[Weighted]] = {}
+        around = None
+        for source in sources:
+            found = (source.weight, source.light.diffuse, source.light.glossy)
+            if source.light is ambient:
+                around = found
+            elif source.link is None:
+                lights.append(found)
+            else:
+                linked.setdefault(source.link, []).append(found)
+        floor = [
+            (source.weight, source.light.floor, source.light.open_floor)
+            for source in sources
+            if source.light.floor is not None
+            and source.light.open_floor is not None
+            and source.link is None
+        ]
+        openness = None if ambient is None else ambient.diffuse
+        return Illumination(lights, around, floor, openness, linked=linked)
 
     @cached_property
     def diffuse(self) -> Floats:
@@ -96,6 +114,19 @@ class Illumination:
             lights.append((weight * VEIL, light))
         return add_up(lights)
 
+    @cached_property
+    def parts(self) -> list[tuple[Link, Floats, Floats]]:
+        """What lights only a part of the character: that part, diffuse and glossy light, (h, w, 3)
+        scene-linear."""
+        return [
+            (
+                link,
+                add_up([(weight, light) for weight, light, _ in lights]),
+                add_up([(weight, light) for weight, _, light in lights]),
+            )
+            for link, lights in self.linked.items()
+        ]
+
     @property
     def _sources(self) -> list[Weighted]:
         return [*self.character, *(() if self.ambient is None else (self.ambient,))]
@@ -111,18 +142,21 @@ class Illumination:
         return np.asarray((cast + FAINT) / (free + FAINT), np.float32)
 
 
-def weigh(passes: Passes, scene: Scene) -> list[tuple[Floats, LightPasses]]:
+def weigh(passes: Passes, scene: Scene) -> list[Source]:
     """The sources that shine, each with its weight: colour times power."""
-    weights = [
-        hex_linear(light.colour) * np.float32(light.power if shines else 0)
-        for light, shines in zip(scene.lights, shining(scene.lights), strict=True)
+    found = [
+        Source(hex_linear(light.colour) * np.float32(light.power), traced, Link.of(light))
+        for light, traced, shines in zip(
+            scene.lights, passes.lights, shining(scene.lights), strict=True
+        )
+        if shines
     ]
-    weights.append(hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength))
-    weighted = list(zip(weights, (*passes.lights, passes.ambient), strict=True))
+    ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+    found.append(Source(ambient, passes.ambient))
     for glow in get_args(GlowName):
-        if (found := getattr(passes, glow)) is not None:
-            weighted.append((glow_weight(glow, scene), found))
-    return [(weight, source) for weight, source in weighted if weight.any()]
+        if (traced := getattr(passes, glow)) is not None:
+            found.append(Source(glow_weight(glow, scene), traced))
+    return [source for source in found if source.weight.any()]
 
 
 def glow_weight(glow: GlowName, scene: Scene) -> Floats:

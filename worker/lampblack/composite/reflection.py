@@ -37,6 +37,34 @@ class PixelLight:
     glossy: Floats | None
     sheen: Floats | None
     shine: Floats | None
+    parts: tuple[PartLight, ...] = ()
+
+    def at(self, places: NDArray[np.bool_]) -> PixelLight:
+        """The light at some pixels, (H, W) bool."""
+        planes = {n: plane for n, plane in vars(self).items() if n != "parts"}
+        there = {n: None if plane is None else plane[places] for n, plane in planes.items()}
+        parts = tuple(
+            PartLight(part.labels, part.diffuse[places], part.glossy[places]) for part in self.parts
+        )
+        return PixelLight(**there, parts=parts)
+
+
+@dataclass(frozen=True, eq=False)
+class PartLight:
+    """Light on some colours only, dark where a pixel's layer is not lit.
+
+    Attributes:
+        labels: (n + 1,) bool, whether each label is lit.
+        diffuse, glossy: (H, W, 3) scene-linear.
+    """
+
+    labels: NDArray[np.bool_]
+    diffuse: Floats
+    glossy: Floats
+
+    def on(self, labels: Labels) -> Floats:
+        """(..., 1) whether pixels of these labels are lit."""
+        return np.asarray(self.labels[labels][..., None], np.float32)
 
 
 def light_at(drawing: Drawing, shading: Shading, band: Band) -> PixelLight:
@@ -64,10 +92,29 @@ def light_at(drawing: Drawing, shading: Shading, band: Band) -> PixelLight:
         smooth, toned, glossy, sheen = (
             None if light is None else light * near for light in (smooth, toned, glossy, sheen)
         )
+    parts = parts_at(drawing, shading, band)
     diffuse = smooth if toned is None else toned
     if smooth is not None and toned is not None:
         diffuse = np.where(materials.cel[drawing.labels][..., None], toned, smooth)
-    return PixelLight(diffuse, smooth, toned, glossy, sheen, shine)
+    if diffuse is not None:
+        for part in parts:
+            diffuse = diffuse + part.on(drawing.labels) * part.diffuse
+    return PixelLight(diffuse, smooth, toned, glossy, sheen, shine, parts)
+
+
+def parts_at(drawing: Drawing, shading: Shading, band: Band) -> tuple[PartLight, ...]:
+    """The light on parts of the character, on the rows ``drawing`` of a whole drawing."""
+    found = []
+    for link, diffuse, glossy in shading.illumination.parts:
+        diffuse, glossy = enlarge(diffuse, band), enlarge(glossy, band)
+        if shading.contact is not None:
+            near = enlarge(shading.contact, band)
+            diffuse, glossy = diffuse * near, glossy * near
+        if drawing.owners is not None:
+            lit = link.owners(drawing.layers)[drawing.owners][..., None]
+            diffuse, glossy = diffuse * lit, glossy * lit
+        found.append(PartLight(link.labels(drawing.palette), diffuse, glossy))
+    return tuple(found)
 
 
 def character_light(
@@ -93,7 +140,7 @@ def reflected_light(
     )
     albedo[blend] -= theirs
     found = _reflected(shading.materials, drawing.labels, albedo, 1 - share[..., None], light)
-    there = PixelLight(*(None if plane is None else plane[blend] for plane in vars(light).values()))
+    there = light.at(blend)
     second = _reflected(shading.materials, other[blend], theirs, share[blend, None], there)
     for whole, part in zip(found, second, strict=True):
         whole[blend] += part
@@ -116,10 +163,32 @@ def _reflected(
             return smooth if smooth is not None else toned if toned is not None else none
         return np.where(cel, toned, smooth)
 
-    sheen, mirrored = chosen(light.shine, light.sheen), chosen(light.shine, light.glossy)
+    lit, sheen = chosen(light.toned, light.smooth), chosen(light.shine, light.sheen)
+    mirrored = chosen(light.shine, light.glossy)
+    for part in light.parts:
+        reached = part.on(labels)
+        lit = lit + reached * part.diffuse
+        sheen, mirrored = sheen + reached * part.glossy, mirrored + reached * part.glossy
     shine = amount * np.where(has_diffuse, share * sheen, albedo * mirrored)
     return (
-        np.where(has_diffuse, albedo * chosen(light.toned, light.smooth), none),
+        np.where(has_diffuse, albedo * lit, none),
         np.where(has_glossy, shine, none),
         np.where(has_diffuse | has_glossy, none, albedo),
     )
+
+
+def emitted_light(drawing: Drawing, materials: MaterialTable) -> tuple[Floats, Floats] | None:
+    """What emissive colours show beside the light on them, scene-linear (H, W, 3): what they give,
+    and of it the colours that would be left as drawn. None if there are none."""
+    if not materials.emission.any():
+        return None
+    albedo = linear(drawing.albedo)
+    other, share = mixed_labels(drawing.labels, albedo, drawing.palette)
+    theirs = np.minimum(albedo, share[..., None] * swatch_albedos(drawing.palette)[other])
+    theirs[share <= 0] = 0
+    as_drawn = ~(materials.diffuse | materials.glossy) & (materials.emission > 0)
+    given, own = np.zeros_like(albedo), np.zeros_like(albedo)
+    for labels, paint in ((drawing.labels, albedo - theirs), (other, theirs)):
+        given += paint * materials.emission[labels][..., None]
+        own += paint * as_drawn[labels][..., None]
+    return given + own, own

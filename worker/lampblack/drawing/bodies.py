@@ -38,6 +38,11 @@ def decompose_cel(cel: Cel, choices: Iterable[LayerBody] = ()) -> Drawing:
     whole = decompose_drawing(cel.pixels, mask=cel.mask, ink=cel.ink)
     if len(cel.layers) < 2:
         return whole
+    whole = replace(
+        whole,
+        owners=_topmost(cel.layers, whole.size),
+        layers=tuple(layer.name for layer in cel.layers),
+    )
     placed = place_layers(cel.layers, whole.size, choices)
     kinds = [layer.kind for layer in placed]
     if kinds.count("own") < 2 and "flat" not in kinds:
@@ -47,6 +52,18 @@ def decompose_cel(cel: Cel, choices: Iterable[LayerBody] = ()) -> Drawing:
     if len(bodies) < (1 if "flat" in kinds else 2):
         return whole
     return replace(whole, bodies=_covering(bodies, whole))
+
+
+def _topmost(layers: Sequence[CelLayer], size: tuple[int, int]) -> NDArray[np.int8]:
+    """(H, W) index of the topmost layer that covers at least half of each pixel, or else of one
+    that has any paint there."""
+    owners = np.full((size[1], size[0]), -1, np.int8)
+    for least in (1, 128):
+        for index, layer in enumerate(layers):
+            height, width = layer.pixels.shape[:2]
+            window = owners[layer.top : layer.top + height, layer.left : layer.left + width]
+            window[layer.pixels[..., 3] >= least] = index
+    return owners
 
 
 @dataclass(eq=False)

@@ -32,6 +32,9 @@ class Drawing:
             pixels past the mask.
         labels: (H, W) int16 index into ``palette.swatches`` of the fill, -1 outside.
         palette: the flat colours of the fill.
+        owners: (H, W) int8 index into ``layers`` of the topmost layer with paint here, -1 where
+            there is none; None if the layers are not known.
+        layers: the artist's names of the layers.
         bodies: its parts, bottom first, if it was drawn on several layers that are bodies of
             their own. Then each of them has a surface, and this drawing has none.
     """
@@ -46,6 +49,8 @@ class Drawing:
     labels: NDArray[np.int16]
     palette: Palette
     bodies: tuple[Body, ...] = ()
+    owners: NDArray[np.int8] | None = None
+    layers: tuple[str, ...] = ()
 
     @property
     def size(self) -> tuple[int, int]:

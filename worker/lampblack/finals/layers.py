@@ -81,7 +81,7 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
     )
     present |= {name: source for name, source in glows.items() if source is not None}
     for name, source in present.items():
-        own = [(weight, light) for weight, light in sources if light is source]
+        own = [one for one in sources if one.light is source]
         if own:
             light = character_light(drawing, scene, Illumination.sum_of(own, passes.ambient), band)
             colour[name] = cover * sum(light[:2])

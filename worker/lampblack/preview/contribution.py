@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..choices import GlowName
 from ..colour import hex_linear
 from ..composite.illumination import glow_weight
+from ..composite.linking import Link
 from ..composite.resample import Box
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
@@ -36,6 +37,7 @@ class LightContribution:
             amounts is shown until it is traced again.
         weight: (3,) colour times power, used only by the composite.
         light: None is the ambient light, or that of ``glow``.
+        link: what it lights, used only by the composite; None is everything.
         area: the traced part of the drawing, in its pixels.
     """
 
@@ -48,6 +50,7 @@ class LightContribution:
     canvas: Canvas
     floor: Floor | None
     glow: GlowName | None = None
+    link: Link | None = None
 
     @property
     def is_ambient(self) -> bool:
@@ -101,14 +104,23 @@ def contributions_of(
         area = character if subject == "character" else whole
         for light, weight in (*lights, (None, ambient)):
             occluding = light is None and subject == "character" and scene.look.contact > 0
-            if not weight.any() and not occluding:
+            link = None if light is None else Link.of(light)
+            if (not weight.any() and not occluding) or (link is not None and subject == "floor"):
                 continue
             at = light and light.geometry
             key = (drawing.digest, drawing.detail, shared, subject, area, at)
             neutral = light and light.neutral()
             found.append(
                 LightContribution(
-                    key, materials.amounts, weight, neutral, subject, area, scene.canvas, floor
+                    key,
+                    materials.amounts,
+                    weight,
+                    neutral,
+                    subject,
+                    area,
+                    scene.canvas,
+                    floor,
+                    link=link,
                 )
             )
         for glow, shaped in glows.items():

@@ -200,7 +200,12 @@ class Painter:
         on_character = [(c, found) for c, found in pairs if c.subject == "character"]
         ambient = next((found for c, found in on_character if c.is_ambient), None)
         light = Illumination(
-            character=[found for c, found in on_character if not c.is_ambient],
+            character=[f for c, f in on_character if not c.is_ambient and c.link is None],
+            linked={
+                link: [found for c, found in on_character if c.link == link]
+                for link in dict.fromkeys(c.link for c, _ in on_character)
+                if link is not None
+            },
             ambient=ambient,
             openness=None if ambient is None else ambient[1],
             floor=[found for c, found in pairs if c.subject == "floor"],

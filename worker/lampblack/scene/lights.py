@@ -10,7 +10,7 @@ from msgspec import Meta
 
 from ..affects import Affects, marks_of, traced_part
 from ..choices import LightKind
-from .values import MAX_KEYS, Colour, Diameter, Extra, KeyFrame, Pixels, Strength, Title
+from .values import MAX_KEYS, Colour, Diameter, Extra, KeyFrame, LayerTitle, Pixels, Strength, Title
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,9 @@ class AreaLight:
 
     Without ``casts_shadow`` it shines through the character, onto what faces it.
 
+    With ``colours`` or ``layers`` it lights only these flat colours and these layers of the
+    character, and not the floor.
+
     Only lights that are ``on`` shine, and only those with ``solo`` if one of them has it.
 
     With ``keys``, in any order, it changes from each to the next, and holds before the first and
@@ -61,6 +64,8 @@ class AreaLight:
     name: Annotated[Title, Affects.NOTHING] = ""
     on: Annotated[bool, Affects.COMPOSITE] = True
     solo: Annotated[bool, Affects.COMPOSITE] = False
+    colours: Annotated[tuple[Colour, ...], Meta(max_length=64), Affects.COMPOSITE] = ()
+    layers: Annotated[tuple[LayerTitle, ...], Meta(max_length=16), Affects.COMPOSITE] = ()
     keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
     extra: Extra = field(default_factory=dict)
 

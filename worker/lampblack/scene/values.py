@@ -21,6 +21,9 @@ Unit = Annotated[float, Meta(ge=0, le=1)]
 Strength = Annotated[float, Meta(ge=0, le=100)]
 Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
 Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
+LayerTitle = Annotated[
+    str, Meta(pattern=r"^[^\x00-\x1f\x7f]*$", max_length=200, description="name of a layer")
+]
 Title = Annotated[str, Meta(max_length=80, description="for people")]
 KeyFrame = Annotated[int, Meta(ge=0, le=999_999, description="frame of the animation")]
 Extra = Annotated[dict[str, Any], Affects.NOTHING]
