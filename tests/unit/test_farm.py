@@ -7,7 +7,12 @@ from pathlib import Path
 import msgspec
 import pytest
 import yaml
-from openjd.model import decode_job_template
+from openjd.model import (
+    ParameterValue,
+    ParameterValueType,
+    create_job,
+    decode_job_template,
+)
 
 from lampblack.drawing import parse_frames, save_picture
 from lampblack.drawing.sequence import frame_list
@@ -51,11 +56,51 @@ def test_a_job_names_each_drawing_in_one_task(run: Run, tmp_path: Path) -> None:
     assert frames["range"] == ["1,3,7", "2,4", "5-6"]
     defaults = {p["name"]: p.get("default") for p in template["parameterDefinitions"]}
     assert defaults["Input"] == "walk.pclx"
-    assert defaults["Output"] == "lit.%04d.exr"
+    assert (defaults["Output"], defaults["OutputNames"]) == (".", "lit.%04d.exr")
     (tmp_path / "elsewhere").mkdir()
     told = run("job", project, "-o", tmp_path / "elsewhere" / "job.yaml", *words)
-    assert f"-p Input={project} -p Output={tmp_path}/lit.%04d.exr" in told.err
+    assert f"-p Input={project} -p Output={tmp_path}" in told.err
     assert "--quality=final" in step["script"]["actions"]["onRun"]["args"]
+
+
+def test_a_job_names_files_and_folders_that_exist(run: Run, tmp_path: Path) -> None:
+    """Farms copy what its parameters of type PATH name, and know no patterns."""
+    (tmp_path / "seq").mkdir()
+    for number in (1, 2):
+        save_picture(tmp_path / "seq" / f"w.{number:04d}.png", draw_ball(64))
+    words = ("-o", tmp_path / "job.yaml", "--to", tmp_path / "lit")
+    for source in ("seq", "seq/w.%04d.png", "seq/w.0001.png"):
+        assert run("job", tmp_path / source, *words).code == 0
+        template = yaml.safe_load((tmp_path / "job.yaml").read_text())
+        paths = {
+            p["name"]: (p["objectType"], p["default"])
+            for p in template["parameterDefinitions"]
+            if p["type"] == "PATH"
+        }
+        single = source.endswith("1.png")
+        assert paths["Input"] == (("FILE", source) if single else ("DIRECTORY", "seq"))
+        assert paths["Output"] == ("DIRECTORY", "lit")
+    (step,) = template["steps"]
+    assert "{{Param.Input}}" in step["script"]["actions"]["onRun"]["args"]
+
+
+def test_braces_in_names_are_only_names(run: Run, tmp_path: Path) -> None:
+    project = walk(tmp_path, [1]).rename(tmp_path / "walk {{v2}}.pclx")
+    words = ("--background", "{{Param.Lampblack}}")
+    assert run("job", project, "-o", tmp_path / "job.yaml", *words).code == 0
+    template = yaml.safe_load((tmp_path / "job.yaml").read_text())
+    job = create_job(
+        job_template=decode_job_template(template=template), job_parameter_values={
+            "Input": ParameterValue(type=ParameterValueType.PATH, value=str(project)),
+            "Output": ParameterValue(type=ParameterValueType.PATH, value="lit"),
+        } | {
+            p["name"]: ParameterValue(type=ParameterValueType.STRING, value=p["default"])
+            for p in template["parameterDefinitions"] if p["type"] == "STRING"
+        },
+    )  # fmt: skip
+    assert "{ {v2} }" in job.name
+    values = {name: each.value for name, each in job.parameters.items()}
+    assert "--background={{Param.Lampblack}}" in values.values()
 
 
 def test_jobs_that_cannot_be_are_told(run: Run, tmp_path: Path, ball_png: Path) -> None:

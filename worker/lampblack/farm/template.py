@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,10 @@ import msgspec
 from ..drawing.sequence import frame_list
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
+from ..finals.targets import NUMBERED
 
 VERSION = "jobtemplate-2023-09"
+FRAMES = "{{Task.Param.Frames}}"
 
 _FILES = {"Scene": "scene", "DepthHints": "depth_hints", "Mask": "mask", "Ink": "ink"}
 """Parameters of a template that are files, and their fields in the settings."""
@@ -34,18 +37,25 @@ def job_template(
         LampblackError: the extra ``farm`` is not installed, or the template is invalid.
     """
     paths = _paths(settings)
-    parameters = [_parameter(name, path, folder) for name, path in paths.items()]
-    named = {name: "{{Param." + name + "}}" for name in paths}
+    parameters: list[dict[str, str]] = []
+    named: dict[str, str] = {}
+    for name, path in paths.items():
+        parameters.append(_parameter(name, path, folder))
+        named[name] = "{{Param." + name + "}}"
+        if path.pattern:
+            parameters.append(_text(f"{name}Names", path.pattern))
+            named[name] += "/{{Param." + name + "Names}}"
     replaced: dict[str, Any] = {"inputs": (named["Input"],), "output": named["Output"]}
     replaced |= {field: named[name] for name, field in _FILES.items() if name in named}
-    task = msgspec.structs.replace(settings, frames="{{Task.Param.Frames}}", **replaced)
+    task = msgspec.structs.replace(settings, frames=FRAMES, **replaced)
+    words = _unbraced(task.arguments(), (*named.values(), FRAMES), parameters)
     parameters.append(
         {"name": "Lampblack", "type": "STRING", "default": "lampblack",
          "description": "The command, on the machines that render."}
     )  # fmt: skip
     template = {
         "specificationVersion": VERSION,
-        "name": f"Light {paths['Input'].name}"[:64],
+        "name": _unmeant(f"Light {Path(settings.inputs[0]).name}"[:60]),
         "parameterDefinitions": parameters,
         "steps": [
             {
@@ -60,7 +70,7 @@ def job_template(
                     "actions": {
                         "onRun": {
                             "command": "{{Param.Lampblack}}",
-                            "args": ["render", *task.arguments(), "--allow-blank"],
+                            "args": ["render", *words, "--allow-blank"],
                             "cancelation": {"mode": "NOTIFY_THEN_TERMINATE"},
                         }
                     }
@@ -91,27 +101,76 @@ def _not_installed() -> LampblackError:
 def paths_outside(settings: RenderSettings, folder: Path) -> dict[str, Path]:
     """The parameters, by name, that have no default in a template in ``folder``."""
     return {
-        name: path for name, path in _paths(settings).items() if not path.is_relative_to(folder)
+        name: path.file
+        for name, path in _paths(settings).items()
+        if not path.file.is_relative_to(folder)
     }
 
 
-def _paths(settings: RenderSettings) -> dict[str, Path]:
+@dataclass(frozen=True)
+class _Path:
+    """A file or a folder, and the pattern of names in it, if there is one: a farm copies files and
+    folders, and knows no patterns."""
+
+    file: Path
+    pattern: str = ""
+
+    @staticmethod
+    def of(path: str) -> _Path:
+        whole = Path(path)
+        if NUMBERED.search(whole.name) and not whole.exists():
+            return _Path(whole.parent, whole.name)
+        return _Path(whole)
+
+    @property
+    def is_folder(self) -> bool:
+        """Also of a folder that is still to be made."""
+        return bool(self.pattern) or self.file.is_dir() or not self.file.suffix
+
+
+def _paths(settings: RenderSettings) -> dict[str, _Path]:
     (source,) = settings.inputs
     paths: dict[str, str | None] = {"Input": source, "Output": settings.output}
     paths |= {name: getattr(settings, field) for name, field in _FILES.items()}
-    return {name: Path(path) for name, path in paths.items() if path is not None}
+    return {name: _Path.of(path) for name, path in paths.items() if path is not None}
 
 
-def _parameter(name: str, path: Path, folder: Path) -> dict[str, str]:
+def _parameter(name: str, path: _Path, folder: Path) -> dict[str, str]:
     parameter = {
         "name": name,
         "type": "PATH",
-        "objectType": "DIRECTORY" if path.is_dir() else "FILE",
+        "objectType": "DIRECTORY" if path.is_folder else "FILE",
         "dataFlow": "OUT" if name == "Output" else "IN",
     }
-    if path.is_relative_to(folder):
-        parameter["default"] = str(path.relative_to(folder))
+    if path.file.is_relative_to(folder):
+        parameter["default"] = str(path.file.relative_to(folder))
     return parameter
+
+
+def _text(name: str, text: str) -> dict[str, str]:
+    return {"name": name, "type": "STRING", "default": text}
+
+
+def _unbraced(
+    words: Sequence[str], meant: Sequence[str], parameters: list[dict[str, str]]
+) -> list[str]:
+    """``words`` as arguments of a template, where ``{{`` begins an expression. A word that has it
+    by itself becomes a parameter; ``meant`` are the expressions of our own."""
+    found = []
+    for word in words:
+        rest = word
+        for expression in meant:
+            rest = rest.replace(expression, "")
+        if "{{" in rest or "}}" in rest:
+            name = f"Word{len(parameters)}"
+            parameters.append(_text(name, word))
+            word = "{{Param." + name + "}}"
+        found.append(word)
+    return found
+
+
+def _unmeant(text: str) -> str:
+    return text.replace("{{", "{ {").replace("}}", "} }")
 
 
 def _check(template: dict[str, Any]) -> None:

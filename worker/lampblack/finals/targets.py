@@ -18,7 +18,7 @@ from .ora import ora_stamp
 from .png import png_stamp
 
 _STAMPS = {".png": png_stamp, ".exr": exr_stamp, ".ora": ora_stamp}
-_NUMBER = re.compile(r"%0?(\d?)d|#+")
+NUMBERED = re.compile(r"%0?(\d?)d|#+")
 
 
 class Targets:
@@ -44,7 +44,7 @@ class Targets:
         apart: ApartKind = "none",
     ) -> None:
         self._path = Path(output)
-        number = list(_NUMBER.finditer(self._path.name))
+        number = list(NUMBERED.finditer(self._path.name))
         suffix = self._path.suffix.lower().removeprefix(".")
         named = suffix in kinds and not self._path.is_dir()
         if number and not named:
