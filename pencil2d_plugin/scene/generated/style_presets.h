@@ -45,7 +45,7 @@ constexpr std::array<const char*, 4> StyleTexts = {{
     "shade_strength": 0.4,
     "highlight": 0.5,
     "contact": 0.3,
-    "ink_light": 0.2,
+    "ink_light": 0.15,
     "glow": 0.0
   },
   "rim": null,
@@ -66,7 +66,7 @@ constexpr std::array<const char*, 4> StyleTexts = {{
     "shade_strength": 0.5,
     "highlight": 0.5,
     "contact": 0.0,
-    "ink_light": 0.3,
+    "ink_light": 0.0,
     "glow": 0.0
   },
   "rim": null,
@@ -87,14 +87,14 @@ constexpr std::array<const char*, 4> StyleTexts = {{
     "shade_strength": 0.65,
     "highlight": 0.5,
     "contact": 0.0,
-    "ink_light": 0.3,
+    "ink_light": 0.0,
     "glow": 0.0
   },
   "rim": {
-    "width": 7.0,
+    "width": 4.5,
     "colour": "#fff6e0",
-    "strength": 0.9,
-    "away": 0.85
+    "strength": 1.0,
+    "away": 0.8
   },
   "version": 1
 })"}};

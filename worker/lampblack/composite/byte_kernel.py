@@ -274,7 +274,7 @@ def _light(
                 if edge > 0:
                     for c in range(3):
                         base = to_linear[albedo[row, column, c]]
-                        aim = rim_colour[c] * (colourless + (one - colourless) * base)
+                        aim = rim_colour[c] * (colourless + (one - colourless) * np.sqrt(base))
                         fill[c] += edge * max(aim - fill[c], zero)
             line = ink[row, column] * byte
             pale = zero

@@ -12,7 +12,8 @@ REACH = 1 / 16
 """Largest distance that is told apart, as a share of the drawing's longer side."""
 STEP = 0.012
 """Least step of the height between two pixels at an edge, as a share of the longer side."""
-WIDEST_LINE = 0.02
+WIDEST_LINE = 0.04
+"""Widest line along an edge, as a share of the longer side."""
 
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float32]
@@ -36,8 +37,7 @@ def edge_distance(mask: Mask, ink: Floats, height: Floats | None = None) -> Byte
     longest = max(mask.shape)
     line = (ink > 0.5) & mask
     reach = _line_width(line, WIDEST_LINE * longest)
-    outside = np.pad(~mask, 1, constant_values=True)
-    rim = ~mask | line & near(outside, reach)[1:-1, 1:-1]
+    rim = ~mask | line & near(~mask, reach)
     distance = depth_within(~rim)
     if height is not None:
         drop = height - _lowest_beside(height, mask)
@@ -50,7 +50,7 @@ def edge_distance(mask: Mask, ink: Floats, height: Floats | None = None) -> Byte
             ahead = mask & (height > height[row, column] - 0.5 * drop[row, column])
             start = ahead & (front | line & near(front, reach))
             distance = np.where(ahead, np.minimum(distance, depth_within(~start)), distance)
-    smooth = ndimage.gaussian_filter(np.maximum(distance - 0.5, 0), 0.7)
+    smooth = ndimage.gaussian_filter(np.maximum(distance - 0.5, 0), 1.2)
     return np.asarray(np.rint(np.minimum(smooth * (255 / reach_of(mask.shape)), 255)), np.uint8)
 
 

@@ -19,7 +19,7 @@ from .illumination import Illumination
 from .line import lay_ink, lit_line
 from .reflection import emitted_light, light_at, reflected_light
 from .resample import Band, enlarge
-from .rim import PLAIN_RIM, rim_shares
+from .rim import rim_colour, rim_shares
 from .roll_off import roll_off
 from .shading import Shading
 from .shadow import shade_background
@@ -151,7 +151,7 @@ def _lit_colours(
     fill = roll_off(paint + gloss, albedo)
     if rim is not None and shading.rim is not None:
         lit = (diffuse | shading.materials.glossy[drawing.labels])[..., None]
-        target = shading.rim.colour * (PLAIN_RIM + (1 - PLAIN_RIM) * albedo)
+        target = rim_colour(shading.rim, albedo)
         fill += np.where(lit, rim[..., None] * np.maximum(target - fill, 0), np.float32(0))
     fill += unlit
     line = lit_line(drawing, light.diffuse, fill, diffuse, shading.ink_light)

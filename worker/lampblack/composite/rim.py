@@ -15,7 +15,7 @@ from .edges import reach_of
 from .resample import Band
 from .tones import strongest_light
 
-PLAIN_RIM = 0.65
+PLAIN_RIM = 0.25
 """Share of the rim's light that does not take the colour of the paint: dark cloth has a rim too."""
 SOFT = 0.15
 """Half of the blend at the inner side of the band, as a share of its width."""
@@ -50,6 +50,12 @@ class RimLight:
         return RimLight(rim.width, colour, rim.strength, rim.away, strongest_light(scene))
 
 
+def rim_colour(rim: RimLight, albedo: Floats) -> Floats:
+    """The colour of paint, (..., 3) scene-linear, in the rim's light: paler than the paint, and of
+    its hue."""
+    return np.asarray(rim.colour * (PLAIN_RIM + (1 - PLAIN_RIM) * np.sqrt(albedo)), np.float32)
+
+
 def rim_shares(rim: RimLight, edges: Bytes, band: Band) -> Floats:
     """(rows, W) how much of the rim's light each pixel of ``band`` gets, 0 to 1.
 
@@ -77,21 +83,23 @@ def rim_share(
             and rows.
     """
     distance = edges[row, column] * unit
-    soft = max(SOFT * width, 0.6 * pixel)
+    soft = max(SOFT * width, 0.9 * pixel)
     share = (width - distance) / (2 * soft) + 0.5
     if share <= 0:
         return np.float32(0)
     share = min(share, 1.0)
     share = strength * share * share * (3 - 2 * share)
     if away > 0:
+        # The edge of a drawing has steps of a pixel: seen from further away they even out.
         rows, columns = edges.shape
-        x0, x1 = max(column - 2, 0), min(column + 2, columns - 1)
-        y0, y1 = max(row - 2, 0), min(row + 2, rows - 1)
+        step = 2 + int(0.75 * width / pixel)
+        x0, x1 = max(column - step, 0), min(column + step, columns - 1)
+        y0, y1 = max(row - step, 0), min(row + step, rows - 1)
         across = float(edges[row, x1]) - float(edges[row, x0])
         along = float(edges[y1, column]) - float(edges[y0, column])
         length = np.sqrt((across * across + along * along) * (right * right + down * down))
         facing = -(across * right + along * down) / max(length, 1e-6)
-        lit = min(max((facing + 0.5) / 1.0, 0.0), 1.0)
+        lit = min(max((facing + 0.7) / 1.4, 0.0), 1.0)
         share *= 1 - away * lit * lit * (3 - 2 * lit)
     return np.float32(share)
 
