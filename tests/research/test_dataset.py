@@ -13,7 +13,7 @@ from PIL import Image
 from scipy import ndimage
 from shapes import sphere_model
 
-from lampblack.errors import LampblackError
+from lampblack.errors import LampblackError, LampblackWarning
 from lampblack_research.dataset.anatomy.implicit_surface import ImplicitSurface
 from lampblack_research.dataset.anatomy.lathe import lathe
 from lampblack_research.dataset.build import DatasetOptions, build_dataset, entries
@@ -36,7 +36,6 @@ def models(tmp_path: Path) -> Path:
     folder.mkdir()
     trimesh.creation.icosphere(subdivisions=2).export(folder / "ball.ply")
     trimesh.creation.capsule(radius=0.4).export(folder / "pill.obj")
-    (folder / "broken.obj").write_text("junk")
     return folder
 
 
@@ -55,6 +54,15 @@ def test_a_data_set_is_the_same_however_often_it_is_interrupted(
         first, second = Triple.load(a), Triple.load(b)
         assert np.array_equal(first.drawings, second.drawings)
         assert np.array_equal(first.normals, second.normals)
+
+
+def test_a_bad_model_is_told_once_and_ends_nothing(models: Path, tmp_path: Path) -> None:
+    (models / "broken.obj").write_text("junk")
+    bad = np.eye(4, 3), np.array([[0, 1, 9]])
+    np.savez(models / "index.npz", vertices=bad[0], faces=bad[1])
+    with pytest.warns(LampblackWarning) as told:
+        assert build_dataset(models, tmp_path / "data", None, OPTIONS) == 4
+    assert [Path(str(w.message).split()[0]).name for w in told] == ["broken.obj", "index.npz"]
 
 
 def test_random_creatures_are_the_same_every_time(models: Path, tmp_path: Path) -> None:

@@ -33,3 +33,27 @@ def test_broken_meshes_are_refused(tmp_path: Path, name: str, content: bytes) ->
         load_model(tmp_path / name)
     with pytest.raises(LampblackError):
         find_models(tmp_path / "nowhere")
+
+
+GOOD = np.eye(4, 3), np.array([[0, 1, 2], [0, 1, 3]])
+BAD = {
+    "does not exist": (GOOD[0], np.array([[0, 1, 4]])),
+    "does not exist, below": (GOOD[0], np.array([[0, 1, -1]])),
+    "no triangles": (GOOD[0], np.array([[0, 1, 2, 3]])),
+    "no triangles, real": (GOOD[0], GOOD[1].astype(float)),
+    "of three coordinates": (GOOD[0][:, :2], GOOD[1]),
+    "of three coordinates, flat": (GOOD[0].ravel(), GOOD[1]),
+    "of three coordinates, text": (GOOD[0].astype(str), GOOD[1]),
+    "not finite": (np.where(GOOD[0] > 0, np.nan, 0.0), GOOD[1]),
+    "too far away": (GOOD[0] * 1e300, GOOD[1]),
+    "0 faces": (GOOD[0], np.zeros((0, 3), int)),
+}
+
+
+@pytest.mark.parametrize("reason", BAD)
+def test_the_reason_is_told(tmp_path: Path, reason: str) -> None:
+    path = tmp_path / "m.npz"
+    np.savez(path, vertices=BAD[reason][0], faces=BAD[reason][1])
+    with pytest.raises(LampblackError, match=reason.partition(",")[0]) as told:
+        load_model(path)
+    assert str(path) in told.value.what

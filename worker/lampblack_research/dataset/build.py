@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import warnings
 from collections import Counter
 from collections.abc import Callable, Generator
 from contextlib import closing
@@ -16,7 +17,7 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from lampblack.errors import LampblackError, OutputError
+from lampblack.errors import LampblackError, LampblackWarning, OutputError
 
 from . import creatures
 from .deform import deformed
@@ -92,6 +93,9 @@ def build_dataset(
 
     Raises:
         LampblackError: no models. OutputError: ``output`` cannot be written.
+
+    Warns:
+        LampblackWarning: models cannot be used and are left out; one warning for each.
     """
     paths = find_models(models, split)
     wanted = list(entries(paths, options.views))
@@ -104,20 +108,26 @@ def build_dataset(
     missing = [task for task in wanted if not entry_path(output, *task).exists()]
     there = done = len(wanted) - len(missing)
     progress(done, len(wanted))
+    refused: set[str] = set()
     with closing(_built(missing, output, options)) as built:
-        for tried, made in built:
+        for tried, (made, reasons) in built:
             done, there = done + tried, there + made
+            refused |= reasons
             progress(done, len(wanted))
+    for reason in sorted(refused):
+        warnings.warn(f"{reason} It is left out.", LampblackWarning, stacklevel=2)
     return there
 
 
 _Task = tuple[Path, int]
+_Built = tuple[int, set[str]]
+"""How many entries were made, and why models were refused."""
 
 
 def _built(
     tasks: list[_Task], output: Path, options: DatasetOptions
-) -> Generator[tuple[int, int], None, None]:
-    """Build in chunks; yield for each how many entries were tried and how many were made."""
+) -> Generator[tuple[int, _Built], None, None]:
+    """Build in chunks; yield for each how many entries were tried, and what came of them."""
     size = max(1, min(CHUNK, len(tasks) // options.workers))
     chunks = [tasks[start : start + size] for start in range(0, len(tasks), size)]
     build = partial(_build, output=output, options=options)
@@ -133,10 +143,14 @@ def _run_in_background() -> None:
     os.nice(5)
 
 
-def _build(tasks: list[_Task], output: Path, options: DatasetOptions) -> int:
-    made, styled = 0, []
+def _build(tasks: list[_Task], output: Path, options: DatasetOptions) -> _Built:
+    made, styled, refused = 0, [], set()
     for path, index in tasks:
-        drawn = _draw(path, index, options)
+        try:
+            drawn = _draw(path, index, options)
+        except LampblackError as error:
+            refused.add(error.what)
+            continue
         if drawn is None:
             continue
         made += 1
@@ -151,7 +165,7 @@ def _build(tasks: list[_Task], output: Path, options: DatasetOptions) -> int:
             if ink is not None:
                 drawn.lines[0] = ink * drawn.view.mask
             _save(drawn, where, options)
-    return made
+    return made, refused
 
 
 def _save(drawn: _Drawn, path: Path, options: DatasetOptions) -> None:
@@ -166,17 +180,18 @@ class _Drawn:
 
 
 def _draw(path: Path, index: int, options: DatasetOptions) -> _Drawn | None:
-    """A view and its drawings, without Freestyle's; None if there is nothing to see."""
+    """A view and its drawings, without Freestyle's; None if there is nothing to see.
+
+    Raises:
+        LampblackError: the model cannot be used.
+    """
     name = f"{path.parent.name}/{path.stem}"
     rng = np.random.default_rng([options.seed, crc32(name.encode()), index])
     side = index
     if path.parent.name == creatures.SOURCE:
         model, side = creatures.creature(name, rng), int(rng.integers(PAPER_VIEWPOINTS))
     else:
-        try:
-            model = smoothed(load_model(path))
-        except LampblackError:
-            return None
+        model = smoothed(load_model(path))
         if options.deform and rng.random() < 0.5:
             model = deformed(model, rng)
     placed = place(model, viewpoint(side, rng), options.resolution, equal_area=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from lampblack.errors import LampblackError
 
+LARGEST = 1e12
 MAX_FACES = 2_000_000
 CREASE_DEGREES = 75.0
 MAX_FACES_AROUND = 64
@@ -64,7 +66,7 @@ def load_model(path: Path) -> Model:
     """Read one mesh and weld, centre and smooth it.
 
     Raises:
-        LampblackError: the file is not a mesh, or is empty or too large.
+        LampblackError: the file is not a mesh of triangles, or is empty or too large.
     """
     try:
         if path.suffix == ".npz":
@@ -75,9 +77,7 @@ def load_model(path: Path) -> Model:
             vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     except Exception as error:  # readers of broken meshes raise all kinds of errors
         raise LampblackError(f"{path} cannot be read as a mesh.", details=str(error)) from error
-    if not 0 < len(faces) <= MAX_FACES or not np.isfinite(vertices).all():
-        raise LampblackError(f"{path} has {len(faces)} faces; 1 to {MAX_FACES} can be used.")
-    faces = faces.astype(np.int64)
+    vertices, faces = _checked(path, vertices, faces)
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     vertices = (vertices - (low + high) / 2) / max(float(np.linalg.norm(high - low)) / 2, 1e-12)
 
@@ -99,6 +99,23 @@ def load_model(path: Path) -> Model:
         corner_normals=_corner_normals(faces, area_normals),
         double_sided=len(distinct) < 0.98 * len(faces),
     )
+
+
+def _checked(
+    path: Path, vertices: NDArray[Any], faces: NDArray[Any]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The arrays of a foreign file, with the shapes and values that a mesh has."""
+    if vertices.ndim != 2 or vertices.shape[1] != 3 or vertices.dtype.kind not in "fiu":
+        raise LampblackError(f"{path} has no vertices of three coordinates.")
+    if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
+        raise LampblackError(f"{path} has faces that are no triangles.", "Triangulate it.")
+    if not 0 < len(faces) <= MAX_FACES:
+        raise LampblackError(f"{path} has {len(faces)} faces; 1 to {MAX_FACES} can be used.")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise LampblackError(f"{path} has a face with a vertex that does not exist.")
+    if not np.isfinite(vertices).all() or np.abs(vertices).max() > LARGEST:
+        raise LampblackError(f"{path} has a vertex that is not finite, or too far away.")
+    return vertices.astype(np.float64), faces.astype(np.int64)
 
 
 def _corner_normals(
