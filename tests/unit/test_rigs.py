@@ -24,7 +24,9 @@ from lampblack.scene import (
     AreaLight,
     Canvas,
     LightKey,
+    Look,
     Rig,
+    Rim,
     Scene,
     decode_rig,
     default_scene,
@@ -52,6 +54,9 @@ def test_a_rig_on_its_own_canvas_is_the_scene_it_came_from() -> None:
     scene = Scene(Canvas(640, 480), (LAMP, SUN), Ambient("#334455", 0.2))
     again = with_rig(replace(scene, lights=(), ambient=Ambient()), rig_of(scene, "mine"))
     assert again == scene
+    rimmed = replace(RIG, rim=Rim(width=12))
+    smaller = with_rig(Scene(Canvas(500, 400), look=Look(tones=(0.4,))), rimmed)
+    assert (smaller.look, smaller.rim) == (Look(tones=(0.4,)), Rim(width=6))
 
 
 @pytest.mark.parametrize("box", [None, (30, 40, 200, 100), (-50, 300, 100, 700)])

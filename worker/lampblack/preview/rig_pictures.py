@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..camera import Affine, box_on_canvas, scene_in_view
 from ..composite import composite
 from ..composite.byte_layers import ByteLayers
+from ..composite.edges import reach_of
 from ..composite.resample import Box
 from ..prepared import PreparedDrawing
 from ..rigs import PRESETS, preset, rig_of, with_rig
@@ -25,12 +26,19 @@ MARGIN = 0.06
 def placed_presets(drawing: PreparedDrawing, scene: Scene, camera: Affine) -> list[Rig]:
     """The rigs that come with Lampblack, placed on the figure, in pixels of the scene's canvas."""
     box = box_on_canvas(drawing.box, camera)
-    return [rig_of(with_rig(scene, preset(name), box), preset(name).name) for name in PRESETS]
+    found = []
+    for rig in map(preset, PRESETS):
+        lit = with_rig(scene, rig, box)
+        rim = None if rig.rim is None else lit.rim
+        found.append(replace(rig_of(lit, rig.name), look=rig.look, rim=rim))
+    return found
 
 
 def placed(rig: Rig, scene: Scene) -> Rig:
     """``rig`` on the whole canvas of ``scene``."""
-    return replace(rig_of(with_rig(scene, rig), rig.name), extra=rig.extra)
+    lit = with_rig(scene, rig)
+    rim = None if rig.rim is None else lit.rim
+    return replace(rig_of(lit, rig.name), look=rig.look, rim=rim, extra=rig.extra)
 
 
 def rig_pictures(
@@ -55,6 +63,9 @@ def rig_pictures(
     step = drawing.step
     whole = drawing.compact().layers
     assert isinstance(whole, ByteLayers)
+    if scene.rim is not None or any(rig.rim is not None for rig in rigs):
+        unit = reach_of(drawing.edges.shape) * step / 255
+        whole = replace(whole, edges=drawing.edges, edge_unit=unit)
     x, y, width, height = (value / step for value in crop)
     layers = whole.cut((x, y, width, height), (side, side))
     surface = SketchedSurface.of(drawing, crop, (side, side))

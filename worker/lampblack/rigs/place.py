@@ -35,9 +35,9 @@ def with_rig(scene: Scene, rig: Rig, box: Box | None = None) -> Scene:
         rig.canvas, canvas, x + width / 2, y + height / 2, unit / rig.canvas.default_height
     )
     lit = replace(scene, lights=tuple(map(place.light, rig.lights)), ambient=rig.ambient)
-    if rig.look is None:
+    if rig.look is None and rig.rim is None:
         return lit
-    return replace(lit, look=rig.look, rim=scaled_rim(rig.rim, place.scale))
+    return replace(lit, look=rig.look or scene.look, rim=scaled_rim(rig.rim, place.scale))
 
 
 @dataclass(frozen=True)

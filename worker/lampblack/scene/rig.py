@@ -19,7 +19,8 @@ class Rig:
 
     Places are in pixels of the rig's own ``canvas``. They are moved to another canvas, or to the
     box around a figure, with the middle on the middle and the longer side as long as the longer
-    side. See ``rigs/``. With a ``look``, that and the ``rim`` replace those of the scene too.
+    side. See ``rigs/``. A ``look`` replaces that of the scene too, and so does a
+    ``rim``; a look without a rim removes the scene's.
     """
 
     canvas: Canvas
