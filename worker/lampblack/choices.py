@@ -30,6 +30,9 @@ LightKind = Literal["lamp", "sun"]
 Brush = Literal["bump", "dent", "turn"]
 """What a stroke does to the surface: raise it, lower it, or turn it to where the stroke goes."""
 
+LIGHT_LAYER = "Light"
+"""The name of a layer whose paint is light, unless it has the role of a character or a line."""
+
 GlowName = Literal["emission", "painted"]
 """Light that comes from surfaces: from emissive colours, or from light that was painted."""
 

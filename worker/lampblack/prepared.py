@@ -43,8 +43,6 @@ class PreparedDrawing:
             ``layers`` or ``mask``, or (h, w, 3) float16 when compact. None if not requested.
         box: box around the character, in pixels of the drawing.
         overlaps: where the height steps because one part is in front of another, longest first.
-        painted: (h, w, 3) float32, painted light over the whole drawing, scene-linear; None
-            if there is none.
         bodies: its parts, bottom first, if it has several. Each of them is lit as a surface of its
             own; height and normals are then those that are seen, of the topmost body.
     """
@@ -61,7 +59,6 @@ class PreparedDrawing:
     box: Box
     overlaps: tuple[Overlap, ...] = ()
     bodies: tuple[PreparedBody, ...] = ()
-    painted: NDArray[np.float32] | None = None
 
     @property
     def nbytes(self) -> int:
@@ -94,6 +91,12 @@ class PreparedDrawing:
         if not self.bodies:
             return self.layers.palette
         return Palette(tuple(s for body in self.bodies for s in body.drawing.palette.swatches))
+
+    @property
+    def painted(self) -> NDArray[np.float32] | None:
+        """(h, w, 3) float32 scene-linear, painted light over the whole drawing; None if there is
+        none."""
+        return self.layers.painted
 
     def compact(self) -> PreparedDrawing:
         """The same drawing in a third of the memory: byte layers, and normals as float16."""

@@ -66,6 +66,8 @@ class Cel:
     Attributes:
         pixels: (H, W, 4) uint8 sRGB, straight alpha.
         mask, ink: the artist's own, same shape, or None; see ``decompose_drawing``.
+        light: (H, W, 4) uint8 sRGB, light that the artist painted, which is not in ``pixels``; None
+            if there is none.
         layers: the layers that ``pixels`` was painted from, bottom first; none if there is only
             one, or they are not known.
     """
@@ -74,6 +76,7 @@ class Cel:
     mask: Picture | None = None
     ink: Picture | None = None
     layers: tuple[CelLayer, ...] = ()
+    light: Picture | None = None
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,8 @@ struct Plane
 ///
 /// Without planes the worker answers need_frame if it does not hold the drawing. Planes: `pixels` (rgba8),
 /// then optionally `mask` and `ink` (a8), then a `layer` (rgba8) for each name in `layers`, all of one size.
-/// `pixels` is what the layers show together.
+/// `pixels` is what the layers show together. Since 1.3 a layer named `Light` is light that the artist
+/// painted: it is not in `pixels`.
 struct PutFrame
 {
     int frame = 0;                    ///< frame of the animation, in the drawing program's count, 0 to 999999

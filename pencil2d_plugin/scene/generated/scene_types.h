@@ -135,11 +135,11 @@ struct Ambient
 /// Light that the artist paints on a layer named Light: a plane above the character shines where the paint
 /// is, in its colour.
 ///
-/// With `power` 1, what lies close beneath a broad stroke of opaque white is lit twice as bright as drawn.
+/// With `power` 1 opaque white shines ten times as bright as white paper that is fully lit.
 struct PaintedLight
 {
     double power = 1;     ///< 0 to 100
-    double height = 0.12; ///< above the nearest point, half canvas sides, 0.01 to 4
+    double height = 0.06; ///< above the nearest point, half canvas sides, 0.01 to 4
     QJsonObject extra = {};
 };
 

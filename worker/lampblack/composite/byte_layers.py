@@ -37,7 +37,7 @@ class ByteLayers:
         palette: the flat colours.
         edges: (H, W) uint8, see ``edge_distance``, and ``edge_unit``, the pixels of the drawing for
             1 in it. None where there is no rim.
-        owners, layers: see ``Drawing``.
+        owners, layers, painted: see ``Drawing``. A part has no painted light.
     """
 
     pixels: Bytes
@@ -53,6 +53,7 @@ class ByteLayers:
     edge_unit: float = 0.0
     owners: NDArray[np.int8] | None = None
     layers: tuple[str, ...] = ()
+    painted: NDArray[np.float32] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -110,6 +111,7 @@ def byte_layers_of(drawing: Drawing) -> ByteLayers:
         palette=drawing.palette,
         owners=drawing.owners,
         layers=drawing.layers,
+        painted=drawing.painted,
     )
 
 

@@ -22,8 +22,9 @@ VEIL = np.float32(0.1)
 EMITTED = 10.0
 """Radiance of a white surface with an emission of 1, in that of one that is fully lit. It is more
 than what is seen of it: a small flame is to light what is around it, and keep its colour."""
-PAINT = 2.0
-"""Radiance of painted white light of power 1."""
+PAINT = 10.0
+"""Radiance of painted white light of power 1, in that of a white surface that is fully lit: strokes
+are thin."""
 FAINT = np.float32(1e-3)  # avoids 0 / 0: without light there is no shadow
 
 Floats = NDArray[np.float32]

@@ -17,6 +17,7 @@ from .decompose import decompose_drawing
 from .drawing import Body, Drawing
 from .grouping import Placed, place_layers
 from .morphology import Mask, from_nearest, near
+from .painted import painted_light
 
 MARGIN = 8
 """Empty pixels around the drawing of a body."""
@@ -36,6 +37,8 @@ def decompose_cel(cel: Cel, choices: Iterable[LayerBody] = ()) -> Drawing:
     Raises, Warns: as ``decompose_drawing``.
     """
     whole = decompose_drawing(cel.pixels, mask=cel.mask, ink=cel.ink)
+    if (painted := painted_light(cel.light)) is not None:
+        whole = replace(whole, painted=painted)
     if len(cel.layers) < 2:
         return whole
     whole = replace(

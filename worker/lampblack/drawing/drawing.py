@@ -35,6 +35,8 @@ class Drawing:
         owners: (H, W) int8 index into ``layers`` of the topmost layer with paint here, -1 where
             there is none; None if the layers are not known.
         layers: the artist's names of the layers.
+        painted: (h, w, 3) float32 scene-linear, painted light over all of the drawing, at low
+            resolution; None if there is none.
         bodies: its parts, bottom first, if it was drawn on several layers that are bodies of
             their own. Then each of them has a surface, and this drawing has none.
     """
@@ -51,6 +53,7 @@ class Drawing:
     bodies: tuple[Body, ...] = ()
     owners: NDArray[np.int8] | None = None
     layers: tuple[str, ...] = ()
+    painted: NDArray[np.float32] | None = None
 
     @property
     def size(self) -> tuple[int, int]:

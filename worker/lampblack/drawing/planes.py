@@ -27,17 +27,25 @@ class DrawingPlanes:
         mask: (H, W) uint8, 255 inside the character; None: found in the pixels.
         ink: (H, W) uint8, 255 where there is ink; None: found in the pixels.
         layers: the layers of the pixels, bottom first, if they are known.
+        light: (H, W, 4) uint8, sRGB, straight alpha: painted light, which is not in the pixels.
     """
 
     pixels: Bytes
     mask: Bytes | None = None
     ink: Bytes | None = None
     layers: tuple[CelLayer, ...] = ()
+    light: Bytes | None = None
 
     @property
     def nbytes(self) -> int:
         """Bytes of all planes."""
-        planes = [self.pixels, self.mask, self.ink, *(layer.pixels for layer in self.layers)]
+        planes = [
+            self.pixels,
+            self.mask,
+            self.ink,
+            self.light,
+            *(layer.pixels for layer in self.layers),
+        ]
         return sum(plane.nbytes for plane in planes if plane is not None)
 
     def decompose(self, choices: Iterable[LayerBody] = ()) -> Drawing:
@@ -45,7 +53,7 @@ class DrawingPlanes:
 
         Raises, Warns: as ``decompose_drawing``.
         """
-        return decompose_cel(Cel(self.pixels, *self.pictures, self.layers), choices)
+        return decompose_cel(Cel(self.pixels, *self.pictures, self.layers, self.light), choices)
 
     @property
     def pictures(self) -> tuple[Bytes | None, Bytes | None]:
@@ -69,7 +77,8 @@ class DrawingPlanes:
             for layer in self.layers
         )
         kept = tuple(layer for layer in layers if layer is not None)
-        return DrawingPlanes(shrunk(self.pixels, step), mask, ink, kept)
+        light = None if self.light is None else shrunk(self.light, step)
+        return DrawingPlanes(shrunk(self.pixels, step), mask, ink, kept, light)
 
 
 def _grey(plane: Bytes) -> Bytes:

@@ -71,6 +71,8 @@ class ProjectShot:
         around = [paint.fingerprint(layers, number) for layers in (stack.below, stack.above)]
         lit = [paint.fingerprint(layers, number) for layers in (stack.lit, stack.line)]
         drawn = [layer for layer in stack.lit if _is_drawn(layer, number)]
+        if stack.light:
+            lit.append(paint.fingerprint(stack.light, number))
         named = [layer.name for layer in drawn]
         return ShotFrame(
             number,
@@ -85,7 +87,8 @@ class ProjectShot:
         pixels = self._painter.paint(self._stack.lit, number)
         line = self._painter.paint(self._stack.line, number) if self._stack.line else None
         ink = line if line is not None and line[..., 3].any() else None
-        return Cel(pixels, ink=ink, layers=self._layers(number))
+        light = self._painter.paint(self._stack.light, number) if self._stack.light else None
+        return Cel(pixels, ink=ink, layers=self._layers(number), light=light)
 
     def _layers(self, number: int) -> tuple[CelLayer, ...]:
         """The lit layers apart, but for those that show nothing; one that touches up what is

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, get_args
 
-from ..choices import LayerRole
+from ..choices import LIGHT_LAYER, LayerRole
 from ..errors import LampblackWarning, ProjectError
 from ..scene import Scene
 from .document import Layer, Project
@@ -29,17 +29,20 @@ class Stack:
         below, above: layers shown unlit, under and over the lit ones.
         lit: layers of characters and their lines, lit as one drawing.
         line: those of ``lit`` that contain only line.
+        light: layers whose paint is light; they are not shown.
     """
 
     below: tuple[Layer, ...]
     lit: tuple[Layer, ...]
     line: tuple[Layer, ...]
     above: tuple[Layer, ...]
+    light: tuple[Layer, ...] = ()
 
 
 def stack_layers(project: Project, roles: Roles) -> Stack:
     """Sort the layers by role. If any layer has the role ``character`` or ``line``, layers without
-    a role are background. Otherwise every visible layer is lit, except ``background``.
+    a role are background. Otherwise every visible layer is lit, except ``background``. The paint of
+    a layer named Light is light, unless it has the role of a character or a line.
 
     If the project has a visible layer of rendered frames, layers with a role are lit even when
     they are hidden: the artist may have hidden them behind the result.
@@ -49,7 +52,10 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
     """
     _check_names(project, roles)
     named = "character" in roles.values() or "line" in roles.values()
-    drawn = [layer for layer in project.layers if not _is_result(layer, roles)]
+    painted = [layer for layer in project.layers if is_painted_light(layer.name, roles)]
+    drawn = [
+        layer for layer in project.layers if layer not in painted and not _is_result(layer, roles)
+    ]
     finished = any(layer.visible and _is_result(layer, roles) for layer in project.layers)
     lit = [
         layer
@@ -70,6 +76,7 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
         lit=tuple(lit),
         line=tuple(layer for layer in lit if roles.get(layer.name) == "line"),
         above=tuple(shown[top + 1 :]),
+        light=tuple(layer for layer in painted if layer.visible),
     )
 
 
@@ -79,6 +86,11 @@ def roles_of(scene: Scene) -> dict[str, LayerRole]:
     if not isinstance(kept, dict):
         return {}
     return {name: role for name, role in kept.items() if role in get_args(LayerRole)}
+
+
+def is_painted_light(name: str, roles: Roles) -> bool:
+    """Whether the paint of a layer of this name is light."""
+    return name == LIGHT_LAYER and roles.get(name, "background") == "background"
 
 
 def _is_result(layer: Layer, roles: Roles) -> bool:

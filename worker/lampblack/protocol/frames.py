@@ -25,7 +25,8 @@ class PutFrame(Message, frozen=True, kw_only=True):
 
     Without planes the worker answers need_frame if it does not hold the drawing. Planes:
     ``pixels`` (rgba8), then optionally ``mask`` and ``ink`` (a8), then a ``layer`` (rgba8) for
-    each name in ``layers``, all of one size. ``pixels`` is what the layers show together.
+    each name in ``layers``, all of one size. ``pixels`` is what the layers show together. Since
+    1.3 a layer named ``Light`` is light that the artist painted: it is not in ``pixels``.
     """
 
     frame: FrameNumber

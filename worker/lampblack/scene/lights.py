@@ -97,14 +97,13 @@ class PaintedLight:
     """Light that the artist paints on a layer named Light: a plane above the character shines
     where the paint is, in its colour.
 
-    With ``power`` 1, what lies close beneath a broad stroke of opaque white is lit twice as
-    bright as drawn.
+    With ``power`` 1 opaque white shines ten times as bright as white paper that is fully lit.
     """
 
     power: Annotated[Strength, Affects.COMPOSITE] = 1.0
     height: Annotated[
         float, Meta(ge=0.01, le=4, description="above the nearest point, half canvas sides")
-    ] = 0.12
+    ] = 0.06
     extra: Extra = field(default_factory=dict)
 
 

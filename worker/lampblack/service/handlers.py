@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .. import __version__
+from ..choices import LIGHT_LAYER
 from ..drawing import DrawingPlanes, parse_frames
 from ..preview import Viewport
 from ..protocol import (
@@ -35,6 +36,7 @@ from .session import FrameContent, Question, Session
 
 MAX_FRAMES = 100_000
 MAX_CLIENTS = 8
+MINOR_WITH_LIGHT = 3
 
 
 def handle(service: Service, identity: bytes, received: Received) -> None:
@@ -56,7 +58,7 @@ def _hello(service: Service, identity: bytes, message: Hello) -> None:
     if len(service.sessions) >= MAX_CLIENTS:
         service.answer(identity, error_message(ErrorCode.TOO_MANY_CLIENTS))
         return
-    session = service.sessions[identity] = Session(identity)
+    session = service.sessions[identity] = Session(identity, minor=message.minor)
     service.send(
         session,
         Welcome(
@@ -75,10 +77,14 @@ def _put_frame(service: Service, session: Session, message: PutFrame, received: 
         return
     if planes := received.planes:
         session.asked.discard(message.digest)
-        named = zip(message.layers, received.layers, strict=True)
+        named = list(zip(message.layers, received.layers, strict=True))
+        light = None
+        if session.minor >= MINOR_WITH_LIGHT:
+            light = next((pixels for name, pixels in named if name == LIGHT_LAYER), None)
+            named = [(name, pixels) for name, pixels in named if name != LIGHT_LAYER]
         layers = filter(None, (cropped_layer(name, pixels) for name, pixels in named))
         given = DrawingPlanes(
-            planes["pixels"], planes.get("mask"), planes.get("ink"), tuple(layers)
+            planes["pixels"], planes.get("mask"), planes.get("ink"), tuple(layers), light
         )
         service.preview.state.put_planes(message.digest, given)
     session.put_frame(message.frame, FrameContent(message.digest, message.camera))

@@ -33,7 +33,7 @@ class Session:
     Change its content by the methods, which also drop cached requests.
 
     Attributes:
-        identity: routing identity. name: name of the session.
+        identity: routing identity. name: name of the session. minor: the client's minor version.
         frames: content of each frame. viewport: what the client shows.
         request: last request number. asked: drawings that need_frame has requested.
         questions: requests about a frame's drawing that wait for it.
@@ -42,6 +42,7 @@ class Session:
 
     identity: bytes
     name: str = field(default_factory=lambda: secrets.token_hex(16))
+    minor: int = 0
     revision: int = 0
     scene: Scene | None = None
     frames: dict[int, FrameContent] = field(default_factory=dict)

@@ -43,7 +43,7 @@ class SessionShot:
     def cel(self, frame: ShotFrame) -> Cel:
         planes = self._planes(frame.drawing)
         mask, ink = planes.pictures
-        return Cel(planes.pixels, mask, ink, planes.layers)
+        return Cel(planes.pixels, mask, ink, planes.layers, planes.light)
 
     def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
         assert frame.number is not None
