@@ -19,11 +19,11 @@ from .float_kernel import ROUNDING
 from .illumination import Illumination
 from .line import OWN_COLOUR
 from .resample import Band, Box, enlarge
-from .rim import PLAIN_RIM, RimLight, rim_share
+from .rim import PLAIN_RIM, RimLight, rim_reach, rim_share
 from .roll_off import KNEE, PALING
 from .samples import LINEAR, SRGB, encode, level, paleness_of, sample
 from .shading import Shading
-from .tones import Tones, step_share
+from .tones import Tones, step_reach, step_share
 
 Floats = NDArray[np.float32]
 
@@ -162,6 +162,11 @@ def _light(
     across_px, down_px = on_figure[0], on_figure[2]
     has_rim, edges, rim, key, rim_colour = rim_light
     parts, part_light, part_shine, reached, reached_layers, owners = linked
+    lowest, highest = lows[0], highs[-1]
+    reach = np.float32(step_reach(amount, across_px, down_px))
+    widest = rim_reach(rim[0], rim[1], rim[2]) if has_rim else 0.0
+    simple = parts == 0 and not has_contact
+    plain_kind = 1 if tint_strength == 0 else 5
     byte, one, zero = np.float32(1 / 255), np.float32(1), np.float32(0)
     colourless, taken = np.float32(PLAIN_RIM), np.float32(OWN_COLOUR)
     fill, shown = np.zeros(3, np.float32), np.zeros(3, np.float32)
@@ -193,7 +198,49 @@ def _light(
                 fill[c], unlit[c] = zero, to_linear[albedo[row, column, c]]
                 drawn_peak = max(drawn_peak, unlit[c])
             touched = cover > 0 and (kinds[label] != 0 or kinds[other] != 0)
-            if touched:
+            if (
+                touched
+                and simple
+                and share == 0
+                and (kinds[label] == 5 or kinds[label] == plain_kind)
+            ):
+                # Most pixels: paint of one diffuse colour. The light is sampled once for all three
+                # channels.
+                tone, cel = one, kinds[label] & 4 != 0
+                if cel:
+                    # Most of them are far from any step too.
+                    x = min(max(u * amount.shape[1] - 0.5, 0.0), amount.shape[1] - 1.0)
+                    y = min(max(v * amount.shape[0] - 0.5, 0.0), amount.shape[0] - 1.0)
+                    x0, y0 = int(x), int(y)
+                    x1, y1 = min(x0 + 1, amount.shape[1] - 1), min(y0 + 1, amount.shape[0] - 1)
+                    least = min(amount[y0, x0], amount[y0, x1], amount[y1, x0], amount[y1, x1])
+                    most = max(amount[y0, x0], amount[y0, x1], amount[y1, x0], amount[y1, x1])
+                    if most + reach * (most - least) < lowest:
+                        tone = zero
+                    elif least - reach * (most - least) < highest:
+                        tone = step_share(amount, u, v, across_px, down_px, lows, highs)
+                height = toned.shape[0] if cel else diffuse.shape[0]
+                width = toned.shape[1] if cel else diffuse.shape[1]
+                x = min(max(u * width - 0.5, 0.0), width - 1.0)
+                y = min(max(v * height - 0.5, 0.0), height - 1.0)
+                x0, y0 = int(x), int(y)
+                x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
+                s, t = np.float32(x - x0), np.float32(y - y0)
+                for c in range(3):
+                    if cel and tone == 0:
+                        light[c] = shade[c]
+                    elif cel:
+                        above = toned[y0, x0, c] + s * (toned[y0, x1, c] - toned[y0, x0, c])
+                        below = toned[y1, x0, c] + s * (toned[y1, x1, c] - toned[y1, x0, c])
+                        light[c] = shade[c] + tone * (above + t * (below - above) - shade[c])
+                    else:
+                        above = diffuse[y0, x0, c] + s * (diffuse[y0, x1, c] - diffuse[y0, x0, c])
+                        below = diffuse[y1, x0, c] + s * (diffuse[y1, x1, c] - diffuse[y1, x0, c])
+                        light[c] = above + t * (below - above)
+                    fill[c] = unlit[c] * light[c]
+                    unlit[c] = zero
+                    peak = max(peak, fill[c])
+            elif touched:
                 near = sample(contact, u, v, 0) if has_contact else one
                 for second in range(2 if share > 0 else 1):
                     worn = other if second else label
@@ -266,7 +313,7 @@ def _light(
                 pale = over * over / (over * over + np.float32(PALING * PALING))
                 for c in range(3):
                     fill[c] = fill[c] * scale + pale * (bent - fill[c] * scale)
-            if has_rim and touched and kinds[label] & 3:
+            if has_rim and touched and edges[row, column] < widest and kinds[label] & 3:
                 edge = rim_share(
                     edges, row, column, rim[0], rim[1], rim[2], rim[3], rim[4],
                     key[0] - (column + 0.5) * key[2], key[1] - (row + 0.5) * key[3],

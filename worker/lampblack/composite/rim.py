@@ -71,6 +71,12 @@ def rim_shares(rim: RimLight, edges: Bytes, band: Band) -> Floats:
 
 
 @compiled
+def rim_reach(unit: float, width: float, pixel: float) -> float:
+    """The value in ``edges`` from which there is no rim; see ``rim_share``."""
+    return float((width + max(SOFT * width, 0.9 * pixel)) / unit)
+
+
+@compiled
 def rim_share(
     edges: Any, row: int, column: int, unit: float, width: float, pixel: float, strength: float,
     away: float, right: float, down: float,

@@ -269,6 +269,13 @@ def _hue(scene: Scene) -> Floats:
 
 
 @compiled
+def step_reach(amount: Any, across: float, down: float) -> float:
+    """How far the light at a pixel may be from that of the four elements around it, where its step
+    is anti-aliased, as a share of their range."""
+    return float(1.5 * max(amount.shape[1] * across, amount.shape[0] * down, 1.0))
+
+
+@compiled
 def step_share(
     amount: Any, u: float, v: float, across: float, down: float, lows: Any, highs: Any
 ) -> Any:
@@ -282,7 +289,7 @@ def step_share(
     a, b, c, d = amount[y0, x0], amount[y0, x1], amount[y1, x0], amount[y1, x1]
     # Most pixels are far from any step.
     least, most = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
-    reach = np.float32(1.5 * max(width * across, height * down, 1.0)) * (most - least)
+    reach = np.float32(step_reach(amount, across, down)) * (most - least)
     if most + reach < lows[0]:
         return np.float32(0)
     if least - reach > highs[-1]:
