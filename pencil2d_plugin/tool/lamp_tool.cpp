@@ -4,6 +4,8 @@
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/key_input.h"
 #include "tool/canvas/lamp_menu.h"
+#include "tool/depth/brush_bar.h"
+#include "tool/depth/brush_editor.h"
 #include "tool/depth/cut_editor.h"
 #include "tool/depth/cut_menu.h"
 #include "tool/materials/materials_dock.h"
@@ -34,6 +36,7 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
 
 LampTool::~LampTool()
 {
+    delete mBrushBar;
     delete mOverlay; // deletes the event filters of the canvas too
     delete mMenu;
     delete mCutMenu;
@@ -111,7 +114,8 @@ void LampTool::setUpCanvas()
     mOverlay = new CanvasOverlay(mHost, mDocument);
     mInput = new CanvasInput(mHost, mDocument, *mOverlay);
     mCuts = new CutEditor(mHost, mDocument, *mOverlay);
-    mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput, mCuts);
+    mBrush = new BrushEditor(mHost, mDocument, *mOverlay);
+    mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput, mCuts, mBrush);
     mMenu = new LampMenu(mHost, mDocument, mHost.canvas());
     connect(&mHost, &Host::playingChanged, mOverlay.data(),
             [this](bool playing) { mOverlay->setHandlesShown(!playing); });
@@ -150,6 +154,15 @@ void LampTool::setUpCuts()
 {
     mCutMenu = new CutMenu(mHost, mDocument, *mCuts, mHost.canvas());
     connect(mCuts, &CutEditor::menuRequested, mCutMenu.data(), &CutMenu::openAt);
+    connect(mBrush, &BrushEditor::menuRequested, mCutMenu.data(), &CutMenu::openAtStroke);
+    mBrushBar = new BrushBar(mHost.canvas());
+    connect(mBrushBar, &BrushBar::brushChosen, this,
+            [this](std::optional<Brush> brush)
+            {
+                if (brush)
+                    mBrush->setBrush(*brush);
+                updateInput();
+            });
     connect(mCutMenu, &CutMenu::lightRequested, this, [this] { setViewMode(Show::Lit); });
     connect(mMenu, &LampMenu::depthRequested, this, [this] { setViewMode(Show::Relief); });
 }
@@ -163,7 +176,18 @@ void LampTool::updateInput()
     // Who had the cursor gives it back first.
     if (depth)
         mInput->setListening(false);
-    mCuts->setListening(depth);
+    const bool brush = depth && mBrushBar && mBrushBar->brush();
+    if (brush)
+        mCuts->setListening(false);
+    else
+        mBrush->setListening(false);
+    mCuts->setListening(depth && !brush);
+    mBrush->setListening(brush);
+    if (mBrushBar)
+    {
+        mBrushBar->setVisible(depth);
+        mBrushBar->raise();
+    }
     mInput->setListening(mActive && !depth);
 }
 

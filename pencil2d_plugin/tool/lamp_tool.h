@@ -14,6 +14,8 @@
 namespace lampblack
 {
 
+class BrushBar;
+class BrushEditor;
 class CanvasInput;
 class CanvasOverlay;
 class CutEditor;
@@ -110,6 +112,8 @@ private:
     QPointer<LampMenu> mMenu;
     QPointer<CutEditor> mCuts;
     QPointer<CutMenu> mCutMenu;
+    QPointer<BrushEditor> mBrush;
+    QPointer<BrushBar> mBrushBar;
 };
 
 } // namespace lampblack

@@ -21,7 +21,13 @@ from lampblack.scene import (
     default_scene,
     encode_scene,
 )
-from lampblack.surface import Corrections, normals_of, solve_with_overlaps
+from lampblack.surface import (
+    Corrections,
+    clay_picture,
+    depth_picture,
+    normals_of,
+    solve_with_overlaps,
+)
 from lampblack.surface.brush import humped, turned
 from lampblack.surface.cuts import Cuts
 from lampblack.surface.direct import inflate_direct
@@ -179,6 +185,16 @@ def test_corrections_reach_the_surface_of_a_prediction() -> None:
     found, _ = solve_with_overlaps(seen, mask, np.zeros(mask.shape, np.float32), (), given)
     expected = humped(0.5 * plain, mask, Cuts.none(mask.shape), given.strokes)
     assert found[mask] == pytest.approx(expected[mask], abs=0.1)
+
+
+def test_a_clay_picture_shows_small_bumps_on_a_deep_surface() -> None:
+    slope = np.repeat(np.linspace(0, 500, SIDE, dtype=np.float32)[:, None], SIDE, 1)
+    bumped = humped(slope, ALL, NOWHERE, [stroke((60, 60), radius=10.0)])
+    plain, clay = depth_picture(bumped, ALL), clay_picture(bumped, ALL, 1)
+    assert (clay[..., :3] <= plain[..., :3]).all()
+    row = clay[60, 50:71, 0].astype(int)
+    assert row[5] - row[15] > 5  # the light comes from the left
+    assert clay[100, 60, 0] > clay[20, 60, 0]  # and near is bright
 
 
 def test_strokes_move_with_the_character_and_add_up() -> None:

@@ -117,6 +117,12 @@ void CanvasOverlay::setCutStroke(const QPolygonF& line)
     update();
 }
 
+void CanvasOverlay::setBrush(const std::optional<BrushView>& brush)
+{
+    mBrush = brush;
+    update();
+}
+
 void CanvasOverlay::setHovered(const Handle& handle)
 {
     if (handle == mHovered)
@@ -166,7 +172,11 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
         mPicture.paint(painter, *mCanvasToWidget, size(), devicePixelRatioF(), mHost.paper());
     if (!mHandlesShown)
         return;
-    if (mCutsShown)
+    if (mBrush)
+    {
+        paintBrush(painter, *mBrush, *mCanvasToWidget);
+    }
+    else if (mCutsShown)
     {
         paintCuts(painter, mCuts, mHoveredCut, *mCanvasToWidget);
         paintStroke(painter, mCutStroke, *mCanvasToWidget);

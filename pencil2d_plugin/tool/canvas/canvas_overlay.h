@@ -5,6 +5,7 @@
 #include "scene/scene_document.h"
 #include "tool/canvas/handles.h"
 #include "tool/canvas/lit_picture.h"
+#include "tool/depth/brush_painter.h"
 #include "tool/depth/cuts.h"
 
 #include <QWidget>
@@ -45,6 +46,9 @@ public:
     void setHoveredCut(int cut);              ///< index, or -1
     void setCutStroke(const QPolygonF& line); ///< that is being drawn, canvas pixels; empty for none
 
+    /// Show the brush instead of handles and cuts; no value for none.
+    void setBrush(const std::optional<BrushView>& brush);
+
     void setHovered(const Handle& handle);
     const Handle& hovered() const { return mHovered; }
     /// A short text beside the pointer; empty for none.
@@ -75,6 +79,7 @@ private:
     QVector<Cut> mCuts;
     int mHoveredCut = -1;
     QPolygonF mCutStroke;
+    std::optional<BrushView> mBrush;
 };
 
 } // namespace lampblack

@@ -28,8 +28,9 @@ bool isDelete(int key)
 } // namespace
 
 KeyInput::KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input,
-                   CutEditor* cuts)
-    : QObject(&overlay), mHost(host), mDocument(document), mOverlay(overlay), mInput(input), mCuts(cuts)
+                   CutEditor* cuts, BrushEditor* brush)
+    : QObject(&overlay), mHost(host), mDocument(document), mOverlay(overlay), mInput(input), mCuts(cuts),
+      mBrush(brush)
 {
 }
 
@@ -93,12 +94,15 @@ bool KeyInput::isOurs(const QKeyEvent& key) const
             return stack.canRedo();
     }
     if (key.key() == Qt::Key_Escape)
-        return mInput.isDragging() || mInput.isPicking() || (editsCuts() && mCuts->isDrawing());
+        return mInput.isDragging() || mInput.isPicking() || (editsCuts() && mCuts->isDrawing()) ||
+               (usesBrush() && mBrush->isDrawing());
     if (!focusIsOnCanvas())
         return false;
     const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::KeypadModifier;
     if (key.key() == CompareKey && modifiers == Qt::NoModifier)
         return true;
+    if (usesBrush())
+        return isDelete(key.key()) && modifiers == Qt::NoModifier && mBrush->hovered() >= 0;
     if (editsCuts())
         return isDelete(key.key()) && modifiers == Qt::NoModifier && mCuts->hovered() != nullptr &&
                mCuts->hovered()->hint >= 0;
@@ -127,6 +131,10 @@ bool KeyInput::handleKey(const QKeyEvent& key)
     {
         setComparing(true);
     }
+    else if (usesBrush())
+    {
+        mBrush->removeStroke(mBrush->hovered());
+    }
     else if (editsCuts())
     {
         mCuts->removeCorrection(*mCuts->hovered());
@@ -148,6 +156,8 @@ void KeyInput::cancelDrag()
     mInput.cancelDrag();
     if (mCuts != nullptr)
         mCuts->cancelStroke();
+    if (mBrush != nullptr)
+        mBrush->cancelStroke();
 }
 
 bool KeyInput::focusIsOnCanvas() const

@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/canvas/canvas_input.h"
+#include "tool/depth/brush_editor.h"
 #include "tool/depth/cut_editor.h"
 #include "tool/gesture.h"
 
@@ -15,7 +16,8 @@ namespace lampblack
 
 /// Undo and redo change the scene first, wherever the focus is. With the focus on the canvas, arrow keys
 /// nudge the selected light, Delete removes it, Escape cancels a drag, and holding D shows the drawing as
-/// drawn. While cuts are edited, Delete removes the correction under the pointer instead. It is an event
+/// drawn. While cuts are edited or the brush is
+/// used, Delete removes the correction under the pointer instead. It is an event
 /// filter of the application while it listens.
 class KeyInput : public QObject
 {
@@ -23,7 +25,7 @@ class KeyInput : public QObject
 
 public:
     KeyInput(Host& host, SceneDocument& document, CanvasOverlay& overlay, CanvasInput& input,
-             CutEditor* cuts = nullptr);
+             CutEditor* cuts = nullptr, BrushEditor* brush = nullptr);
     ~KeyInput() override;
 
     void setListening(bool listening);
@@ -39,6 +41,7 @@ private:
     bool handleKey(const QKeyEvent& key);
     bool focusIsOnCanvas() const;
     bool editsCuts() const { return mCuts != nullptr && mCuts->isListening(); }
+    bool usesBrush() const { return mBrush != nullptr && mBrush->isListening(); }
     void cancelDrag();
     void nudge(const QKeyEvent& key);
     void setComparing(bool comparing);
@@ -47,7 +50,8 @@ private:
     SceneDocument& mDocument;
     CanvasOverlay& mOverlay;
     CanvasInput& mInput;
-    CutEditor* mCuts; ///< or null
+    CutEditor* mCuts; ///< or null, as the next
+    BrushEditor* mBrush;
     GestureSequence mNudgeGestures;
     bool mListening = false;
     bool mComparing = false;

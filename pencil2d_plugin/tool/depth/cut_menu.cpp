@@ -1,6 +1,7 @@
 #include "tool/depth/cut_menu.h"
 
 #include "tool/depth/hint_edit.h"
+#include "tool/depth/stroke_edit.h"
 
 #include <algorithm>
 
@@ -19,6 +20,31 @@ void CutMenu::openAt(const Cut* cut, const QPoint& global)
     if (cut != nullptr)
         fillCut(*cut);
     fillFrame();
+    popup(global);
+}
+
+void CutMenu::openAtStroke(int stroke, const QPoint& global)
+{
+    clear();
+    if (stroke >= 0)
+    {
+        addEntry("remove_stroke", tr("Remove Stroke"),
+                 [this, stroke]
+                 { mDocument.edit(tr("Remove Stroke"), withoutStroke(mDocument.scene(), stroke)); });
+        addSeparator();
+    }
+    const QVector<DepthStroke>& strokes = mDocument.scene().depth.strokes;
+    const int frame = mHost.currentFrame();
+    const bool isBrushed = std::any_of(strokes.begin(), strokes.end(),
+                                       [frame](const DepthStroke& one) { return one.frame == frame; });
+    addEntry("remove_strokes_here", tr("Remove Strokes of Frame %1").arg(frame),
+             [this, frame]
+             { mDocument.edit(tr("Remove Strokes"), withoutStrokes(mDocument.scene(), frame)); })
+        ->setEnabled(isBrushed);
+    addEntry("remove_strokes", tr("Remove Strokes of All Frames"),
+             [this] { mDocument.edit(tr("Remove Strokes"), withoutStrokes(mDocument.scene())); })
+        ->setEnabled(!strokes.isEmpty());
+    addLight();
     popup(global);
 }
 
@@ -57,6 +83,11 @@ void CutMenu::fillFrame()
     addEntry("remove_all", tr("Remove Corrections of All Frames"),
              [this] { mDocument.edit(tr("Remove Corrections"), withoutHints(mDocument.scene())); })
         ->setEnabled(!hints.isEmpty());
+    addLight();
+}
+
+void CutMenu::addLight()
+{
     addSeparator();
     addEntry("light", tr("Back to the Light"), [this] { Q_EMIT lightRequested(); });
 }

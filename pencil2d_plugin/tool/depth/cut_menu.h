@@ -22,6 +22,8 @@ public:
 
     /// `cut` is the cut under the pointer, or null.
     void openAt(const Cut* cut, const QPoint& global);
+    /// `stroke` is the index of the stroke of the brush under the pointer, or -1.
+    void openAtStroke(int stroke, const QPoint& global);
 
 Q_SIGNALS:
     void lightRequested(); ///< to leave the Depth view
@@ -29,6 +31,7 @@ Q_SIGNALS:
 private:
     void fillCut(const Cut& cut);
     void fillFrame();
+    void addLight();
     QAction* addEntry(const char* name, const QString& text, const std::function<void()>& onTriggered);
 
     Host& mHost;

@@ -15,7 +15,7 @@ from ..composite.byte_layers import ByteLayers, cut_picture
 from ..composite.edges import reach_of
 from ..composite.illumination import Illumination
 from ..prepared import PreparedDrawing
-from ..surface import depth_picture
+from ..surface import clay_picture
 from .bounded import MIB, BoundedStore
 from .light_store import AccumulatedLight
 from .refinement import CONVERGED
@@ -231,7 +231,7 @@ def _view(drawing: PreparedDrawing, request: ViewRequest) -> Picture:
         alpha = drawing.mask.astype(np.uint8)[..., None]
         picture = np.concatenate([colour * alpha, alpha * 255], axis=2)
     else:
-        picture = depth_picture(drawing.height, drawing.mask)
+        picture = clay_picture(drawing.height, drawing.mask, drawing.scale)
     scale = drawing.size[0] / picture.shape[1]
     x, y, width, height = (value / scale for value in request.viewport.crop)
     return cut_picture(picture, (x, y, width, height), request.viewport.size)

@@ -1,7 +1,7 @@
 """Surfaces: normals are inflated to a height, and the height becomes a closed relief mesh."""
 
 from .corrections import Corrections, character_length, normals_of
-from .depth_picture import depth_picture, full_size
+from .depth_picture import clay_picture, depth_picture, full_size
 from .export import save_mesh
 from .guided import guided_filter
 from .inflate_overlaps import dividing_lines, overlap_votes, solve_with_overlaps
@@ -21,6 +21,7 @@ __all__ = [
     "build_relief",
     "character_length",
     "check_relief",
+    "clay_picture",
     "depth_picture",
     "dividing_lines",
     "full_size",
