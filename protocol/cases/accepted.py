@@ -73,6 +73,21 @@ KEYED_SCENE = {
 """Keys out of order, two at one frame, one alone, and none."""
 
 
+DEPTH_SCENE = SCENE | {
+    "depth": {
+        "hints": [{"frame": 3, "front": "joined", "amount": 1}],
+        "layers": [{"layer": "arm", "body": "flat"}],
+        "strokes": [
+            {"frame": 0, "brush": "turn", "radius": 1, "amount": 1, "later": [1]}
+            | {"points": [{"x": -1.5, "y": 2}, {"x": 100000, "y": -100000, "z": None}]},
+            {"frame": 999999},
+        ],
+        "colours": [{"colour": "#0a0b0c", "volume": 4, "nearer": -1}, {"colour": "#ffffff"}],
+    }
+}
+"""All that can be said of depth, at the ends of its ranges, and the least that can be said."""
+
+
 def accepted() -> Iterator[Case]:
     """Messages to accept."""
     for sender, trees in SAMPLES.items():
@@ -99,6 +114,7 @@ def accepted() -> Iterator[Case]:
     yield Case(
         "scene-eight-lights", "client", patched(SET_SCENE, scene={**SCENE, "lights": lights})
     )
+    yield Case("scene-corrected-depth", "client", patched(SET_SCENE, scene=DEPTH_SCENE))
     yield Case("revision-largest-integer", "client", patched(SET_SCENE, revision=9007199254740991))
     yield Case("image-before-any-scene", "worker", *first_image())
     yield Case(
