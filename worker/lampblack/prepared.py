@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-from dataclasses import dataclass, replace
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal, TypeVar
 
@@ -17,7 +17,7 @@ from .composite.resample import Box
 from .drawing import Drawing, Palette
 from .materials import MaterialTable
 from .render import Surface, assign_materials, glowing_parts, painted_plane, vertex_pixels
-from .scene import Scene
+from .scene import Pin, Scene
 from .surface import Base, Relief, build_relief, joined_reliefs
 from .surface.overlap import Overlap
 
@@ -43,6 +43,7 @@ class PreparedDrawing:
             ``layers`` or ``mask``, or (h, w, 3) float16 when compact. None if not requested.
         box: box around the character, in pixels of the drawing.
         overlaps: where the height steps because one part is in front of another, longest first.
+        pinned: where pins of other drawings are in this one, x and y in its pixels.
         bodies: its parts, bottom first, if it has several. Each of them is lit as a surface of its
             own; height and normals are then those that are seen, of the topmost body.
     """
@@ -59,6 +60,7 @@ class PreparedDrawing:
     box: Box
     overlaps: tuple[Overlap, ...] = ()
     bodies: tuple[PreparedBody, ...] = ()
+    pinned: Mapping[Pin, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def nbytes(self) -> int:

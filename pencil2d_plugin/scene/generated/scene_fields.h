@@ -49,6 +49,15 @@ template <class Fields> void describe(Fields& fields, Canvas& value)
     fields.rest(value.extra);
 }
 
+template <class Fields> void describe(Fields& fields, Pin& value)
+{
+    fields.integer("frame", value.frame, 0, 999999);
+    fields.real("x", value.x, -100000, 100000);
+    fields.real("y", value.y, -100000, 100000);
+    fields.text("layer", value.layer, 0, 200, Need::Optional);
+    fields.rest(value.extra);
+}
+
 template <class Fields> void describe(Fields& fields, LightKey& value)
 {
     fields.integer("frame", value.frame, 0, 999999);
@@ -76,6 +85,7 @@ template <class Fields> void describe(Fields& fields, AreaLight& value)
     fields.boolean("solo", value.solo, Need::Optional);
     fields.texts("colours", value.colours, 64, 7, patterns().colour, Need::Optional);
     fields.texts("layers", value.layers, 16, 200, patterns().layers, Need::Optional);
+    fields.object("pin", value.pin);
     fields.listIfAny("keys", value.keys, 128);
     fields.rest(value.extra);
 }

@@ -13,6 +13,11 @@ bool operator==(const Canvas& a, const Canvas& b)
     return std::tie(a.width, a.height, a.extra) == std::tie(b.width, b.height, b.extra);
 }
 
+bool operator==(const Pin& a, const Pin& b)
+{
+    return std::tie(a.frame, a.x, a.y, a.layer, a.extra) == std::tie(b.frame, b.x, b.y, b.layer, b.extra);
+}
+
 bool operator==(const LightKey& a, const LightKey& b)
 {
     return std::tie(a.frame, a.x, a.y, a.z, a.size, a.colour, a.power, a.extra) ==
@@ -22,9 +27,9 @@ bool operator==(const LightKey& a, const LightKey& b)
 bool operator==(const AreaLight& a, const AreaLight& b)
 {
     return std::tie(a.x, a.y, a.z, a.size, a.colour, a.power, a.kind, a.castsShadow, a.name, a.on, a.solo,
-                    a.colours, a.layers, a.keys,
+                    a.colours, a.layers, a.pin, a.keys,
                     a.extra) == std::tie(b.x, b.y, b.z, b.size, b.colour, b.power, b.kind, b.castsShadow,
-                                         b.name, b.on, b.solo, b.colours, b.layers, b.keys, b.extra);
+                                         b.name, b.on, b.solo, b.colours, b.layers, b.pin, b.keys, b.extra);
 }
 
 bool operator==(const Ambient& a, const Ambient& b)

@@ -72,6 +72,17 @@ struct Canvas
     QJsonObject extra = {};
 };
 
+/// What a light follows: the place (x, y) of the drawing that `frame` shows, or a layer of it by its name. At
+/// `frame` the light is where it is put; elsewhere it is displaced as the place or the layer is.
+struct Pin
+{
+    int frame = 0;      ///< frame of the animation, 0 to 999999
+    double x = 0;       ///< canvas pixels, -100000 to 100000
+    double y = 0;       ///< canvas pixels, -100000 to 100000
+    QString layer = {}; ///< name of a layer, or empty
+    QJsonObject extra = {};
+};
+
 /// A light at one frame: each field is one of `AreaLight` that keys can change.
 struct LightKey
 {
@@ -100,6 +111,8 @@ struct LightKey
 /// With `colours` or `layers` it lights only these flat colours and these layers of the character, and not
 /// the floor.
 ///
+/// A lamp with a `pin` follows the drawing from frame to frame, beside its keys. A sun does not.
+///
 /// Only lights that are `on` shine, and only those with `solo` if one of them has it.
 ///
 /// With `keys`, in any order, it changes from each to the next, and holds before the first and after the
@@ -120,6 +133,7 @@ struct AreaLight
     bool solo = false;
     QStringList colours = {};
     QStringList layers = {};
+    std::optional<Pin> pin = {};
     QVector<LightKey> keys = {}; ///< 128 at most
     QJsonObject extra = {};
 };
@@ -339,6 +353,7 @@ struct Style
 };
 
 bool operator==(const Canvas& a, const Canvas& b);
+bool operator==(const Pin& a, const Pin& b);
 bool operator==(const LightKey& a, const LightKey& b);
 bool operator==(const AreaLight& a, const AreaLight& b);
 bool operator==(const Ambient& a, const Ambient& b);

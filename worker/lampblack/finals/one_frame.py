@@ -14,6 +14,7 @@ from ..shot import ShotFrame
 from ..timeline import scene_at
 from .hint_loader import HintLoader
 from .neighbours import NeighbourLoader
+from .pin_loader import PinLoader
 from .resolve import ResolvedShot
 
 
@@ -48,5 +49,6 @@ def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
     canvas = resolved.shot.canvas or Canvas(*drawing.size)
     scene = scene_at(resolved.overrides.scene(canvas), 1 if frame.number is None else frame.number)
     placed = resolved.shot.place(frame, scene, drawing.size)
+    placed = PinLoader(resolved.shot, neighbour_loader).followed(frame, placed, scene)
     hints = HintLoader(resolved.shot, neighbour_loader).hints(frame, drawing, scene)
     return OneFrame(frame, drawing, placed, neighbour_loader.neighbours(frame), hints)

@@ -20,6 +20,7 @@ from ..timeline import scene_at
 from ..warning_collector import collect_warnings
 from .hint_loader import HintLoader
 from .neighbours import NeighbourLoader
+from .pin_loader import PinLoader
 from .resolve import ResolvedJob
 
 StampedFrame = tuple[ShotFrame, str]
@@ -110,6 +111,7 @@ class _Planner:
             job.shot, pipeline, job.reach, check, job.overrides.layer_bodies
         )
         self._hints = HintLoader(job.shot, self._neighbours)
+        self._pins = PinLoader(job.shot, self._neighbours)
         self._made_by = digest(__version__, job.options, _weights())
         self._canvas: Canvas | None = None
 
@@ -130,6 +132,7 @@ class _Planner:
                     continue
                 cel = cel or shot.cel(frame)
                 placed = shot.place(frame, scene, _size(cel))
+                placed = self._pins.followed(frame, placed, scene)
             except LampblackError as error:
                 yield Failed([(frame, "")], error)
                 continue
@@ -189,7 +192,7 @@ class _Planner:
 
     def _stamp(self, frame: ShotFrame, canvas: Canvas, scene: Scene) -> str:
         names = frame.drawing, self._neighbours.names(frame), frame.setting
-        hinted = self._hints.names(frame, scene)
+        hinted = *self._hints.names(frame, scene), *self._pins.names(scene)
         targets = self._job.targets
         # Only an EXR has its layers in the same file.
         kind = "exr apart" if targets.apart == "exr" else targets.kind

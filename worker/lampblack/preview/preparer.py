@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from ..drawing import Drawing, DrawingPlanes, Palette
 from ..errors import LampblackError
 from ..hints import HintedDrawing, carry_hints
 from ..normals.temporal.temporal_filter import TemporalFilter
+from ..pins import carried_place
 from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
-from ..scene import default_scene
+from ..scene import Pin, default_scene
 from ..warning_collector import collect_warnings
 from .contribution import preview_surface
 from .shape import DrawingShape
@@ -91,8 +92,7 @@ class Preparer:
             shape, _ = key
             if key in self.state.drawings or self.state.failure(shape.digest) is not None:
                 continue
-            hinted = (source.digest for source in shape.sources)
-            if all(digest in self.state.planes for digest in (shape.digest, *hinted)):
+            if all(digest in self.state.planes for digest in shape.needed):
                 return key
         return None
 
@@ -118,7 +118,24 @@ class Preparer:
             drawing, hints=hints, digest=shape.key, progress=give_way, with_normals=True
         ).compact()
         self._decomposed = None
-        return prepared
+        return replace(prepared, pinned=self._pinned(shape, drawing))
+
+    def _pinned(self, shape: DrawingShape, drawing: Drawing) -> dict[Pin, tuple[float, float]]:
+        """Where the pins of other drawings are in ``drawing``; those that cannot be read are
+        left out."""
+        found = {}
+        for source in shape.pins:
+            planes = self.state.planes.get(source.digest)
+            if planes is None:
+                continue
+            with collect_warnings(), suppress(LampblackError):
+                made_on = planes.decompose(shape.layers)
+                place = carried_place(
+                    source.place, source.pin.layer, made_on, drawing, self._temporal_filter
+                )
+                if place is not None:
+                    found[source.pin] = place
+        return found
 
     def _hinted(self, shape: DrawingShape, drawing: Drawing) -> Iterator[HintedDrawing]:
         """The drawings with hints that count for ``drawing``; those that cannot be read have no

@@ -7,6 +7,7 @@ from typing import Literal
 
 from ..camera import Affine, scene_in_view
 from ..composite.resample import Box
+from ..pins import followed
 from ..prepared import Detail, PreparedDrawing
 from ..scene import Scene
 from .contribution import LightContribution, character_area, contributions_of
@@ -87,6 +88,14 @@ class ViewRequest:
         found = self._resolved.get(drawing.detail)
         if found is None:
             scene = scene_in_view(self.scene, self.camera, drawing.size)
+            a, b, c, d, e, f = self.camera
+            scene = followed(
+                scene,
+                {
+                    pin: (x - (a * pin.x + b * pin.y + c), y - (d * pin.x + e * pin.y + f))
+                    for pin, (x, y) in drawing.pinned.items()
+                },
+            )
             character = character_area(drawing, self.viewport.crop)
             found = ResolvedView(scene, character, contributions_of(scene, drawing, character))
             self._resolved[drawing.detail] = found

@@ -30,7 +30,7 @@ from .document import (
     scene_schema,
 )
 from .floor import Floor, FloorKey
-from .lights import Ambient, AreaLight, LightKey, PaintedLight, shining
+from .lights import Ambient, AreaLight, LightKey, PaintedLight, Pin, shining
 from .look import MAX_TONES, Look, Rim
 from .materials import Material
 from .rig import Rig
@@ -64,6 +64,7 @@ __all__ = [
     "Look",
     "Material",
     "PaintedLight",
+    "Pin",
     "Rig",
     "Rim",
     "Scene",

@@ -28,6 +28,19 @@ class LightKey:
 
 
 @dataclass(frozen=True)
+class Pin:
+    """What a light follows: the place (x, y) of the drawing that ``frame`` shows, or a layer of it
+    by its name. At ``frame`` the light is where it is put; elsewhere it is displaced as the place
+    or the layer is."""
+
+    frame: KeyFrame
+    x: Pixels
+    y: Pixels
+    layer: Annotated[str, Meta(max_length=200, description="name of a layer, or empty")] = ""
+    extra: Extra = field(default_factory=dict, hash=False)
+
+
+@dataclass(frozen=True)
 class AreaLight:
     """A disk of light facing the paper point beneath it, or a sun.
 
@@ -44,6 +57,8 @@ class AreaLight:
 
     With ``colours`` or ``layers`` it lights only these flat colours and these layers of the
     character, and not the floor.
+
+    A lamp with a ``pin`` follows the drawing from frame to frame, beside its keys. A sun does not.
 
     Only lights that are ``on`` shine, and only those with ``solo`` if one of them has it.
 
@@ -66,6 +81,7 @@ class AreaLight:
     solo: Annotated[bool, Affects.COMPOSITE] = False
     colours: Annotated[tuple[Colour, ...], Meta(max_length=64), Affects.COMPOSITE] = ()
     layers: Annotated[tuple[LayerTitle, ...], Meta(max_length=16), Affects.COMPOSITE] = ()
+    pin: Annotated[Pin | None, Affects.NOTHING] = None
     keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
     extra: Extra = field(default_factory=dict)
 

@@ -138,7 +138,7 @@ class Planner:
         """Request a missing drawing, and those whose hints it needs, once."""
         if (shape, "full") in self.state.drawings or self.state.failure(shape.digest) is not None:
             return
-        for digest in (shape.digest, *(source.digest for source in shape.sources)):
+        for digest in shape.needed:
             if digest not in self.state.planes and digest not in session.asked:
                 self.ask(session, digest)
 

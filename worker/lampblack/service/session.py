@@ -8,8 +8,9 @@ from dataclasses import dataclass, field, replace
 
 from ..camera import Affine, hint_in_view
 from ..hints import hint_frames
+from ..pins import pins_of
 from ..preview import Viewport, ViewRequest
-from ..preview.shape import DrawingShape, HintSource
+from ..preview.shape import DrawingShape, HintSource, PinSource
 from ..protocol import ErrorCode, GetOverlaps, GetPalette, GetRigs, error_message
 from ..protocol.fields import Message
 from ..scene import Depth, Scene
@@ -83,7 +84,8 @@ class Session:
 
     def _frame_changed(self, frame: int) -> None:
         self._requests.pop(frame, None)
-        if self._shapes:  # hints of this frame count for others
+        pinned = self.scene is not None and bool(pins_of(self.scene))
+        if self._shapes or pinned:  # hints and pins of this frame count for others
             self._shapes.clear()
             self._requests.clear()
 
@@ -147,7 +149,8 @@ class Session:
         frames that show the drawing."""
         digest = self.frames[frame].digest
         depth = Depth() if self.scene is None else self.scene.depth
-        if depth == Depth():
+        pins = self._pins(digest)
+        if depth == Depth() and not pins:
             return DrawingShape(digest)
         if digest not in self._shapes:
             first = min(n for n, content in self.frames.items() if content.digest == digest)
@@ -163,5 +166,16 @@ class Session:
                 for hinted in hint_frames(depth, first)
                 if hinted in self.frames
             )
-            self._shapes[digest] = DrawingShape(digest, depth.layers, depth.colours, sources)
+            self._shapes[digest] = DrawingShape(digest, depth.layers, depth.colours, sources, pins)
         return self._shapes[digest]
+
+    def _pins(self, digest: str) -> tuple[PinSource, ...]:
+        """What lights follow on the drawing ``digest``, from other drawings."""
+        found = []
+        for pin in () if self.scene is None else pins_of(self.scene):
+            content = self.frames.get(pin.frame)
+            if content is not None and content.digest != digest:
+                a, b, c, d, e, f = content.camera
+                place = a * pin.x + b * pin.y + c, d * pin.x + e * pin.y + f
+                found.append(PinSource(pin, content.digest, place))
+        return tuple(found)
