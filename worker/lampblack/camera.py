@@ -93,6 +93,12 @@ def hint_in_view(hint: Stroke, camera: Affine) -> Stroke:
     return hint.placed(points, scale, mirrored=a * e < b * d)
 
 
+def is_flat(camera: Affine) -> bool:
+    """Whether ``camera`` shows nothing, because it flattens the canvas to a line or a point."""
+    a, b, _, d, e, _ = camera
+    return abs(a * e - b * d) < 1e-6
+
+
 def is_shift(camera: Affine) -> bool:
     """Whether ``camera`` only translates."""
     a, b, _, d, e, _ = camera
@@ -113,6 +119,8 @@ def look_through(
     width, height = size
     if is_shift(camera):
         return _shifted(picture, math.floor(camera[2] + 0.5), math.floor(camera[5] + 0.5), size)
+    if is_flat(camera):
+        return np.zeros((height, width, picture.shape[2]), picture.dtype)
     a, b, c, d, e, f = camera
     back = np.linalg.inv(np.array([[e, d], [b, a]]))
     # Pixel centres are at half coordinates, array indices at whole ones.

@@ -1,4 +1,4 @@
-"""The description of a Pencil2D project: layers, their keyframes, and cameras.
+"""The description of a Pencil2D project: layers and their keyframes.
 
 Pencil2D's frame of reference: x right, y *down*, with the origin at the centre of the view of a
 camera that has not moved. Frames count from 1. A keyframe holds until the
@@ -7,14 +7,12 @@ next one; it may come before frame 1.
 
 from __future__ import annotations
 
-import math
-from bisect import bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeVar
+from typing import Literal
 
-from ..camera import Affine
 from .blend import Blend
+from .camera_layer import Camera
+from .keyframes import held
 
 Kind = Literal["bitmap", "vector"]
 
@@ -78,68 +76,7 @@ class Layer:
 
     def key_at(self, frame: int) -> Key | None:
         """The drawing that ``frame`` shows; None before the first key."""
-        return _held(self.keys, frame)
-
-
-@dataclass(frozen=True)
-class CameraKey:
-    """The camera at a frame: drawings are moved by (dx, dy), rotated by ``turn`` degrees
-    (clockwise) and then scaled, all about the picture's centre."""
-
-    frame: int
-    dx: float = 0.0
-    dy: float = 0.0
-    turn: float = 0.0
-    scale: float = 1.0
-
-    @property
-    def matrix(self) -> Affine:
-        """From Pencil2D's frame to the picture's, both with their origins at the centre."""
-        cos = self.scale * math.cos(math.radians(self.turn))
-        sin = self.scale * math.sin(math.radians(self.turn))
-        if self.turn % 360 == 0:
-            cos, sin = self.scale, 0.0
-        return (
-            cos, -sin, cos * self.dx - sin * self.dy,
-            sin, cos, sin * self.dx + cos * self.dy,
-        )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Camera:
-    """A camera with a view of ``width`` x ``height`` pixels."""
-
-    name: str
-    width: int
-    height: int
-    keys: tuple[CameraKey, ...]
-
-    def at(self, frame: int) -> Affine:
-        """From canvas to picture at ``frame``. The canvas is the view of a camera without keys.
-
-        Between two keys the matrices are interpolated linearly, as in Pencil2D 0.6.
-        """
-        across, down = self.width // 2, self.height // 2
-        a, b, c, d, e, f = self._matrix(frame)
-        # The centres of canvas and picture are both Pencil2D's origin.
-        return (
-            a, b, c + across - a * across - b * down,
-            d, e, f + down - d * across - e * down,
-        )  # fmt: skip
-
-    def _matrix(self, frame: int) -> Affine:
-        before = _held(self.keys, frame)
-        if before is None:
-            return self.keys[0].matrix if self.keys else CameraKey(1).matrix
-        after = next((key for key in self.keys if key.frame > frame), before)
-        if after is before or before == CameraKey(before.frame, *_place(after)):
-            return before.matrix
-        share = (frame - before.frame) / (after.frame - before.frame)
-        mixed = [
-            (1 - share) * one + share * other
-            for one, other in zip(before.matrix, after.matrix, strict=True)
-        ]
-        return (mixed[0], mixed[1], mixed[2], mixed[3], mixed[4], mixed[5])
+        return held(self.keys, frame)
 
 
 @dataclass(frozen=True)
@@ -157,15 +94,3 @@ class Project:
     cameras: tuple[Camera, ...]
     length: int
     fps: int
-
-
-_Keyed = TypeVar("_Keyed", Key, CameraKey)
-
-
-def _held(keys: Sequence[_Keyed], frame: int) -> _Keyed | None:
-    index = bisect_right(keys, frame, key=lambda key: key.frame)
-    return keys[index - 1] if index else None
-
-
-def _place(key: CameraKey) -> tuple[float, float, float, float]:
-    return key.dx, key.dy, key.turn, key.scale

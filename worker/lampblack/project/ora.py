@@ -17,7 +17,8 @@ from xml.etree.ElementTree import Element
 from ..errors import LampblackWarning, ProjectError
 from .attributes import check_size, number, sound_xml, whole
 from .blend import BLENDS, Blend
-from .document import Camera, CameraKey, Group, Key, Layer, Project
+from .camera_layer import Camera, CameraKey
+from .document import Group, Key, Layer, Project
 
 FOLDER = "data/"
 MAX_LAYERS = 1000

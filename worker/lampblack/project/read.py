@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator
 from dataclasses import replace
@@ -11,7 +12,9 @@ from xml.etree.ElementTree import Element, tostring
 from ..errors import LampblackWarning, ProjectError
 from .archive import ORA, Archive, open_archive
 from .attributes import check_size, number, sound_xml, whole
-from .document import Camera, CameraKey, Key, Kind, Layer, Project
+from .camera_layer import Between, Camera, CameraKey
+from .document import Key, Kind, Layer, Project
+from .easing import CURVES, LINEAR
 from .ora import parse_stack
 
 BITMAP, VECTOR, CAMERA = "1", "2", "5"
@@ -50,7 +53,9 @@ def parse(xml: bytes, name: str) -> Project:
     if len(described) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
     layers = tuple(_layer(e, KINDS[e.get("type", "")]) for e in described if e.get("type") in KINDS)
-    cameras = tuple(_camera(e) for e in described if e.get("type") == CAMERA) or (DEFAULT_CAMERA,)
+    moving = [element for element in described if element.get("type") == CAMERA]
+    between: Between = "parameters" if _is_new(root, moving) else "matrices"
+    cameras = tuple(_camera(element, between) for element in moving) or (DEFAULT_CAMERA,)
     keyed: list[tuple[Key, ...] | tuple[CameraKey, ...]] = [thing.keys for thing in layers]
     keyed += [camera.keys for camera in cameras]
     length = max((key.frame for keys in keyed for key in keys), default=1)
@@ -79,7 +84,19 @@ def _layer(element: Element, kind: Kind) -> Layer:
     )
 
 
-def _camera(element: Element) -> Camera:
+def _is_new(root: Element, cameras: list[Element]) -> bool:
+    """Whether the project is of Pencil2D 0.7 or later. Debian's 0.7.0 calls itself 0.0.0.0, but
+    its cameras have attributes that earlier ones do not."""
+    version = re.match(r"v?(\d{1,3})\.(\d{1,3})", (root.findtext("version") or "").strip())
+    if version is not None and (int(version[1]), int(version[2])) >= (0, 7):
+        return True
+    keys = [key for camera in cameras for key in camera.findall("camera")]
+    return any("showPath" in camera.attrib for camera in cameras) or any(
+        {"easing", "pathCPX", "pathCPY"} & set(key.attrib) for key in keys
+    )
+
+
+def _camera(element: Element, between: Between) -> Camera:
     name = _name(element)
     width, height = whole(element, "width", 800), whole(element, "height", 600)
     check_size(width, height, f"The camera {name!r}")
@@ -91,18 +108,24 @@ def _camera(element: Element) -> Camera:
             dy=number(moved, "dy", 0),
             turn=number(moved, "r", 0),
             scale=number(moved, "s", 1),
+            easing=whole(moved, "easing", LINEAR),
         )
+        if "pathCPX" in moved.attrib or "pathCPY" in moved.attrib:
+            # Pencil2D saves where the camera goes; drawings move the other way.
+            bend = -number(moved, "pathCPX", 0), -number(moved, "pathCPY", 0)
+            key = replace(key, bend=bend)
         if abs(key.scale) < 1e-3:
             raise ProjectError(f"The camera {name!r} shrinks frame {key.frame} to nothing.")
-        keys[key.frame] = key
-        if len(keys) > 1 and moved.get("easing", "0") != "0":
+        if key.easing not in CURVES and key.easing != LINEAR:
             warnings.warn(
-                f"The camera {name!r} has easing, which Lampblack does not know; it moves at a "
-                "constant speed between its keys.",
+                f"The camera {name!r} has an easing, number {key.easing}, which Lampblack does "
+                "not know; it moves at a constant speed there.",
                 LampblackWarning,
                 stacklevel=2,
             )
-    return Camera(name, width, height, tuple(keys[frame] for frame in sorted(keys)))
+            key = replace(key, easing=LINEAR)
+        keys[key.frame] = key
+    return Camera(name, width, height, tuple(keys[frame] for frame in sorted(keys)), between)
 
 
 def _blanked(project: Project, archive: Archive) -> Project:

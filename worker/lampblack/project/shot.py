@@ -17,14 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..cache import digest
-from ..camera import Affine, look_through, on_canvas, scene_in_view
+from ..camera import Affine, is_flat, look_through, on_canvas, scene_in_view
 from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import LampblackWarning, ProjectError
 from ..scene import Canvas, Scene
 from ..shot import MAX_LAYERS, Cel, CelLayer, ShotFrame, cropped_layer
 from .archive import Archive
-from .document import Camera, Layer, Project
+from .camera_layer import Camera
+from .document import Layer, Project
 from .paint import LayerPainter, Picture
 from .region import Region
 from .stack import Roles, stack_layers
@@ -122,10 +123,10 @@ class ProjectShot:
         """Layers are composited as in Pencil2D. Without other layers, and under a camera that only
         translates, this is the lit cel itself."""
         number = _number(frame)
+        size = self.canvas.width, self.canvas.height
+        camera = self.camera(frame)
         below = self._painter.paint(self._stack.below, number) if self._stack.below else None
         above = self._painter.paint(self._stack.above, number) if self._stack.above else None
-        camera = self.camera(frame)
-        size = self.canvas.width, self.canvas.height
         if below is None and above is None and camera[:2] + camera[3:5] == (1.0, 0.0, 0.0, 1.0):
             return look_through(lit, camera, size)
         layered = _premultiplied(lit)
@@ -167,12 +168,13 @@ def _region(camera: Camera, length: int) -> Region:
     closest = 0.0
     for matrix in {camera.at(number) for number in range(1, length + 1)}:
         a, b, c, d, e, f = matrix
-        area = abs(a * e - b * d)
-        if area < 1e-6:
-            raise ProjectError("The camera flattens a frame to nothing.", "Move its keys apart.")
-        closest = max(closest, math.sqrt(area))
+        if is_flat(matrix):
+            continue
+        closest = max(closest, math.sqrt(abs(a * e - b * d)))
         seen = (corners - [c, f]) @ np.linalg.inv(np.array([[a, b], [d, e]])).T
         low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
+    if not closest:
+        raise ProjectError("The camera shows nothing in any frame.", "Move its keys apart.")
     finest = closest if closest <= 0.5 else 1.0
     extent = high - low
     scale = min(finest, MAX_SIDE / extent.max(), math.sqrt(MAX_PIXELS / extent.prod()))
