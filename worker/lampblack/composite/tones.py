@@ -23,9 +23,9 @@ from .illumination import Illumination, add_up
 from .resample import Band, Box
 from .spline import refined
 
-SMOOTHING = 0.0022
+SMOOTHING = 0.003
 """Deviation of the smoothing, as a share of the canvas's longer side."""
-ISLAND = 0.014
+ISLAND = 0.022
 """Side of the smallest island of a tone, as a share of the canvas's longer side."""
 MOST_ISLANDS = 200
 MARGIN = 0.25
@@ -169,10 +169,11 @@ def without_islands(amount: Floats, lows: Floats, highs: Floats, smallest: int) 
     cuts out."""
     found = amount
     for low, high in zip(lows, highs, strict=True):
-        for lit in (True, False):
-            # Also what nearly crosses the step: it would be seen as a ghost.
-            area = found > low * (1 - MARGIN) if lit else found < high * (1 + MARGIN)
-            regions, count = ndimage.label(area)
+        # Also what nearly crosses the step: it would be seen as a ghost.
+        bright, dark = (high, low, low * (1 - MARGIN)), (low, high, high * (1 + MARGIN))
+        levels = [*((level, True) for level in bright), *((level, False) for level in dark)]
+        for level, lit in levels:
+            regions, count = ndimage.label(found > level if lit else found < level)
             small = np.bincount(regions.ravel(), minlength=count + 1) < smallest
             small[0] = False
             if small.any():
