@@ -14,9 +14,10 @@ from lampblack.colour import hex_linear, linear, srgb
 from lampblack.composite import composite
 from lampblack.composite.byte_layers import byte_layers_of, premultiplied
 from lampblack.composite.edges import edge_distance, reach_of
+from lampblack.composite.full_light import exposure, full_light
 from lampblack.composite.illumination import Illumination
 from lampblack.composite.resample import Band
-from lampblack.composite.tones import exposure, full_light, tone_shares, tones_of
+from lampblack.composite.tones import tone_shares, tones_of
 from lampblack.drawing import Drawing, decompose_drawing
 from lampblack.render import LightPasses, Passes
 from lampblack.scene import (
@@ -283,6 +284,16 @@ def test_previews_agree_with_finals(ball: Drawing, look: Look, material: Materia
     wanted = premultiplied(composite(ball, passes, full, edges=edges)).astype(int)
     layers = replace(byte_layers_of(ball), edges=edges, edge_unit=reach_of(edges.shape) / 255)
     assert np.abs(composite(layers, passes, full) - wanted).max() <= 4
+
+
+def test_a_light_for_one_colour_leaves_the_tones_of_the_others(ball: Drawing) -> None:
+    other = replace(sun(power=50), colours=("#123456",))
+    dark = flat(0)
+    alone, beside = (
+        lit(ball, scene(CEL, *lights), ramp(), *([dark] * (len(lights) - 1)))
+        for lights in ((sun(),), (sun(), other))
+    )
+    assert np.array_equal(alone, beside)
 
 
 def test_scenes_without_a_look_are_as_before_and_looks_survive_a_file() -> None:

@@ -12,8 +12,8 @@ from ..colour import hex_linear
 from ..compiled import compiled
 from ..scene import Scene
 from .edges import reach_of
+from .full_light import strongest_light
 from .resample import Band
-from .tones import strongest_light
 
 PLAIN_RIM = 0.25
 """Share of the rim's light that does not take the colour of the paint: dark cloth has a rim too."""

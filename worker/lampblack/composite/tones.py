@@ -18,7 +18,8 @@ from scipy import ndimage
 from ..colour import hex_linear
 from ..compiled import compiled
 from ..drawing.morphology import highest
-from ..scene import AreaLight, Look, Scene, shining
+from ..scene import Look, Scene
+from .full_light import exposure, full_light, hue_of_lights, reach_of_light
 from .illumination import Illumination, add_up
 from .resample import Band, Box
 from .spline import refined
@@ -30,8 +31,6 @@ ISLAND = 0.022
 MOST_ISLANDS = 200
 MARGIN = 0.25
 """Islands are sought a little beyond a threshold too, by this share of it."""
-BEHIND = 0.25
-"""Share of the full light of a light behind the paper."""
 FAINT = np.float32(0.02)
 MOST = 3
 """How often light is enlarged at most, along each side, before the rest is interpolated."""
@@ -66,19 +65,6 @@ class Tones:
     strength: np.float32
 
 
-def full_light(scene: Scene) -> float:
-    """The light on a surface in the middle of the canvas that faces the strongest light."""
-    return max((strength for _, (strength, _) in _by_light(scene)), default=0.0)
-
-
-def strongest_light(scene: Scene) -> tuple[float, float]:
-    """(x, y) of the light that is strongest in the middle of the canvas; of none, that above the
-    upper left."""
-    found = [(strength, light.x, light.y) for light, (strength, _) in _by_light(scene)]
-    _, x, y = max(found, default=(0.0, 0.0, 0.0))
-    return x, y
-
-
 def tones_of(
     illumination: Illumination, scene: Scene, pixel: float, area: Box, *, shine: bool = False
 ) -> Tones:
@@ -97,7 +83,7 @@ def tones_of(
     longest = max(scene.canvas.width, scene.canvas.height)
     blur = max(0.6, SMOOTHING * longest / element)
     brightest = np.maximum(np.maximum(direct[..., 0], direct[..., 1]), direct[..., 2])
-    reach = _reach(scene, area, (height, width)) if full_light(scene) > 0 else full
+    reach = reach_of_light(scene, area, (height, width)) if full_light(scene) > 0 else full
     lows, highs = steps(look)
     if full > 0:
         amount = _blurred(brightest / reach, blur)
@@ -108,7 +94,15 @@ def tones_of(
     scale = exposure(float(ambient.max() + full))
     faint = FAINT * full + np.float32(1e-6)
     lit = np.empty((height, width, 3), np.float32)
-    _tint(direct, brightest, faint, _hue(scene), scale * ambient, np.float32(scale) * full, lit)
+    _tint(
+        direct,
+        brightest,
+        faint,
+        hue_of_lights(scene),
+        scale * ambient,
+        np.float32(scale) * full,
+        lit,
+    )
     tint = hex_linear(look.shade_colour) * np.float32(scale * (ambient.max() + full))
     factor = min(MOST, max(1, math.ceil(element / pixel / 2)))
     edge = np.float32(look.highlight**2), np.float32((look.highlight + look.softness / 2) ** 2)
@@ -136,7 +130,7 @@ def toned_floor(ratio: Floats, scene: Scene) -> Floats:
     full = np.float32(full_light(scene))
     if full <= 0:
         return ratio
-    dark = ambient / (ambient + full * _hue(scene))
+    dark = ambient / (ambient + full * hue_of_lights(scene))
     tint = hex_linear(scene.look.shade_colour)
     shade = dark + np.float32(scene.look.shade_strength) * (tint - dark)
     least = np.float32(dark.max())
@@ -148,12 +142,6 @@ def toned_floor(ratio: Floats, scene: Scene) -> Floats:
     low, high = (np.array([FLOOR_TONE + side * width], np.float32) for side in (-1, 1))
     _shares(fine, low, high, 0, fine.shape[0], fine.shape[0], share)
     return np.asarray(shade + share[..., None] * (1 - shade), np.float32)
-
-
-def exposure(light: float) -> float:
-    """The factor by which tones are shown: full light up to 1 is shown as it is, more light
-    brightens the drawn colours slowly."""
-    return 1.0 if light <= 1 else (1 + 0.35 * math.log(light)) / light
 
 
 def steps(look: Look) -> tuple[Floats, Floats]:
@@ -211,40 +199,6 @@ def highlight_shares(tones: Tones, band: Band) -> Floats:
     return shares
 
 
-def _by_light(scene: Scene) -> list[tuple[AreaLight, tuple[float, Floats]]]:
-    """Each light with the light on a surface in the middle of the canvas that faces it, and with
-    its colour times its power."""
-    middle = scene.canvas.width / 2, scene.canvas.height / 2
-    found = []
-    for light, shines in zip(scene.lights, shining(scene.lights), strict=True):
-        if not shines:
-            continue
-        weight = hex_linear(light.colour) * np.float32(light.power)
-        distance = math.dist((light.x, light.y, light.z), (*middle, 0)) or 1.0
-        near = 1.0 if light.kind == "sun" else (scene.canvas.default_height / distance) ** 2
-        behind = min(1.0, max(0.0, -light.z / distance / 0.3))
-        strength = float(weight.max()) * near * (1 - (1 - BEHIND) * behind)
-        found.append((light, (strength, weight)))
-    return found
-
-
-def _reach(scene: Scene, area: Box, size: tuple[int, int]) -> Floats:
-    """(h, w) the full light at each element of ``area``: half way between that in the middle of the
-    canvas and that at its own distance. A lamp lights what is near it, but tones follow the form
-    more than the distance."""
-    height, width = size
-    x = area[0] + (np.arange(width, dtype=np.float32) + 0.5) * (area[2] / width)
-    y = area[1] + (np.arange(height, dtype=np.float32)[:, None] + 0.5) * (area[3] / height)
-    middle = scene.canvas.width / 2, scene.canvas.height / 2
-    found = np.full(size, 1e-6, np.float32)
-    for light, (strength, _) in _by_light(scene):
-        far = (middle[0] - light.x) ** 2 + (middle[1] - light.y) ** 2 + light.z**2
-        near = (x - light.x) ** 2 + (y - light.y) ** 2 + light.z**2
-        fall = 1.0 if light.kind == "sun" else np.sqrt(far / np.maximum(near, 0.02 * far + 1))
-        np.maximum(found, strength * fall, out=found)
-    return found
-
-
 @compiled
 def _tint(
     direct: Any, brightest: Any, faint: Any, hue: Any, ambient: Any, full: Any, lit: Any
@@ -261,12 +215,6 @@ def _tint(
 def _blurred(plane: Floats, deviation: float) -> Floats:
     found: Floats = ndimage.gaussian_filter(plane, deviation, mode="nearest", truncate=3)
     return found
-
-
-def _hue(scene: Scene) -> Floats:
-    """(3,) the colour of all lights, its brightest channel 1."""
-    total = sum((weight for _, (_, weight) in _by_light(scene)), np.zeros(3, np.float32))
-    return np.asarray(total / total.max() if total.max() > 0 else total + 1, np.float32)
 
 
 @compiled
