@@ -153,8 +153,12 @@ void LampTool::setUpCanvas()
 void LampTool::setUpCuts()
 {
     mCutMenu = new CutMenu(mHost, mDocument, *mCuts, mHost.canvas());
-    connect(mCuts, &CutEditor::menuRequested, mCutMenu.data(), &CutMenu::openAt);
-    connect(mBrush, &BrushEditor::menuRequested, mCutMenu.data(), &CutMenu::openAtStroke);
+    connect(mCuts, &CutEditor::menuRequested, mCutMenu.data(),
+            [this](const Cut* cut, const QPoint& global)
+            { mCutMenu->openAt(cut, global, colourAt(global)); });
+    connect(mBrush, &BrushEditor::menuRequested, mCutMenu.data(),
+            [this](int stroke, const QPoint& global)
+            { mCutMenu->openAtStroke(stroke, global, colourAt(global)); });
     mBrushBar = new BrushBar(mHost.canvas());
     connect(mBrushBar, &BrushBar::brushChosen, this,
             [this](std::optional<Brush> brush)
@@ -165,6 +169,14 @@ void LampTool::setUpCuts()
             });
     connect(mCutMenu, &CutMenu::lightRequested, this, [this] { setViewMode(Show::Lit); });
     connect(mMenu, &LampMenu::depthRequested, this, [this] { setViewMode(Show::Relief); });
+}
+
+QString LampTool::colourAt(const QPoint& global) const
+{
+    const std::optional<QTransform> toWidget = mHost.canvasToWidget();
+    if (!toWidget || !toWidget->isInvertible())
+        return {};
+    return mColours.at(toWidget->inverted().map(QPointF(mHost.canvas()->mapFromGlobal(global))));
 }
 
 void LampTool::updateInput()

@@ -92,6 +92,7 @@ private:
     void addDock();
     void setUpCanvas();
     void setUpCuts();
+    QString colourAt(const QPoint& global) const;
     void updateInput();
     void highlightColourAt(const QPointF& canvas);
 

@@ -1,5 +1,7 @@
 #include "tool/depth/cut_menu.h"
 
+#include "tool/canvas/lamp_menu.h"
+#include "tool/depth/colour_depth.h"
 #include "tool/depth/hint_edit.h"
 #include "tool/depth/stroke_edit.h"
 
@@ -14,16 +16,17 @@ CutMenu::CutMenu(Host& host, SceneDocument& document, CutEditor& editor, QWidget
     setObjectName(QStringLiteral("lampblack.cut_menu"));
 }
 
-void CutMenu::openAt(const Cut* cut, const QPoint& global)
+void CutMenu::openAt(const Cut* cut, const QPoint& global, const QString& colour)
 {
     clear();
     if (cut != nullptr)
         fillCut(*cut);
+    fillColour(colour);
     fillFrame();
     popup(global);
 }
 
-void CutMenu::openAtStroke(int stroke, const QPoint& global)
+void CutMenu::openAtStroke(int stroke, const QPoint& global, const QString& colour)
 {
     clear();
     if (stroke >= 0)
@@ -33,6 +36,7 @@ void CutMenu::openAtStroke(int stroke, const QPoint& global)
                  { mDocument.edit(tr("Remove Stroke"), withoutStroke(mDocument.scene(), stroke)); });
         addSeparator();
     }
+    fillColour(colour);
     const QVector<DepthStroke>& strokes = mDocument.scene().depth.strokes;
     const int frame = mHost.currentFrame();
     const bool isBrushed = std::any_of(strokes.begin(), strokes.end(),
@@ -67,6 +71,31 @@ void CutMenu::fillCut(const Cut& cut)
         ->setEnabled(!isJoined);
     if (cut.hint >= 0)
         addEntry("remove", tr("Remove Correction"), [this, cut] { mEditor.removeCorrection(cut); });
+    addSeparator();
+}
+
+void CutMenu::fillColour(const QString& colour)
+{
+    if (colour.isEmpty())
+        return;
+    constexpr int IconSide = 14;
+    QAction* heading = addAction(colourIcon(QColor(colour), IconSide, devicePixelRatioF()), colour);
+    heading->setEnabled(false);
+    const DepthColour said = depthOf(mDocument.scene(), QColor(colour));
+    const auto entry = [this, &said](const char* name, const QString& text, const DepthColour& changed)
+    {
+        addEntry(name, text,
+                 [this, text, changed] { mDocument.edit(text, withDepthOf(mDocument.scene(), changed)); })
+            ->setEnabled(!(changed == said));
+    };
+    entry("rounder", tr("Rounder"), rounder(said));
+    entry("flatter", tr("Flatter"), flatter(said));
+    entry("nearer", tr("Nearer"), nearer(said));
+    entry("farther", tr("Farther"), farther(said));
+    DepthColour asFound = said;
+    asFound.volume = 1;
+    asFound.nearer = 0;
+    entry("as_found", tr("As Found"), asFound);
     addSeparator();
 }
 

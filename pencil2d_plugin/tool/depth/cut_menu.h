@@ -20,10 +20,10 @@ class CutMenu : public QMenu
 public:
     CutMenu(Host& host, SceneDocument& document, CutEditor& editor, QWidget* parent);
 
-    /// `cut` is the cut under the pointer, or null.
-    void openAt(const Cut* cut, const QPoint& global);
+    /// `cut` is the cut under the pointer, or null. `colour` is the flat colour there, or empty.
+    void openAt(const Cut* cut, const QPoint& global, const QString& colour = {});
     /// `stroke` is the index of the stroke of the brush under the pointer, or -1.
-    void openAtStroke(int stroke, const QPoint& global);
+    void openAtStroke(int stroke, const QPoint& global, const QString& colour = {});
 
 Q_SIGNALS:
     void lightRequested(); ///< to leave the Depth view
@@ -31,6 +31,7 @@ Q_SIGNALS:
 private:
     void fillCut(const Cut& cut);
     void fillFrame();
+    void fillColour(const QString& colour);
     void addLight();
     QAction* addEntry(const char* name, const QString& text, const std::function<void()>& onTriggered);
 

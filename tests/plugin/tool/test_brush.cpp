@@ -3,6 +3,7 @@
 #include "support/fake_worker.h"
 #include "support/mouse.h"
 #include "support/scenes.h"
+#include "tool/depth/colour_depth.h"
 #include "tool/depth/stroke_edit.h"
 #include "tool/lamp_tool.h"
 
@@ -184,6 +185,49 @@ private Q_SLOTS:
         click({100, 100});
         QCOMPARE(strokes().size(), MaxStrokes);
         QVERIFY(mHost->mStatus.contains(QString::number(MaxStrokes)));
+    }
+
+    void aColourBecomesRounderAndNearer()
+    {
+        QImage drawing(400, 300, QImage::Format_RGBA8888);
+        drawing.fill(QColor(200, 60, 40));
+        mTool->setFrame({5, drawing, {}, {}});
+        mTool->setPalette({{QStringLiteral("#c83c28"), 120000}});
+        const auto chosen = [this](const char* name)
+        {
+            click({300, 200}, Qt::RightButton);
+            auto* menu = canvas()->findChild<QMenu*>(QStringLiteral("lampblack.cut_menu"));
+            auto* entry =
+                menu->findChild<QAction*>(QStringLiteral("lampblack.cut_menu.") + QLatin1String(name));
+            const bool isThere = entry != nullptr && entry->isEnabled();
+            if (isThere)
+                entry->trigger();
+            menu->close();
+            return isThere;
+        };
+        const QVector<DepthColour>& colours = mDocument->scene().depth.colours;
+        QVERIFY(!chosen("as_found"));
+        QVERIFY(chosen("rounder"));
+        QCOMPARE(colours.size(), 1);
+        QCOMPARE(colours[0].colour, QColor(200, 60, 40));
+        QCOMPARE(colours[0].volume, 1.5);
+        choose("bump"); // with the brush too
+        QVERIFY(chosen("nearer"));
+        QCOMPARE(colours[0].nearer, 0.02);
+        QVERIFY(chosen("flatter"));
+        QVERIFY(chosen("farther"));
+        QVERIFY2(colours.isEmpty(), "nothing is said of it any more");
+        mDocument->undoStack()->undo();
+        QCOMPARE(colours.size(), 1);
+        QVERIFY(chosen("as_found"));
+        QVERIFY(colours.isEmpty());
+        for (int i = 0; i < 8; ++i)
+            chosen("flatter");
+        QCOMPARE(colours[0].volume, 0.0);
+        QVERIFY(!chosen("flatter"));
+        for (int i = 0; i < 12; ++i)
+            chosen("rounder");
+        QCOMPARE(colours[0].volume, MaxVolume);
     }
 
     void stepsAndLightsAreAsBefore()
