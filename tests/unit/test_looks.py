@@ -296,6 +296,18 @@ def test_a_light_for_one_colour_leaves_the_tones_of_the_others(ball: Drawing) ->
     assert np.array_equal(alone, beside)
 
 
+def test_a_light_for_one_colour_is_in_tones_too(ball: Drawing) -> None:
+    own = replace(sun("#ff4000"), colours=(ball.palette.colours[0],))
+    plain = scene(CEL, sun(power=0.5), own)
+    passes = Passes((flat(0), ramp()), flat(0))
+    picture = composite(ball, passes, plain)
+    values, counts = np.unique(picture[80, 40:120], axis=0, return_counts=True)
+    assert counts[counts > 10].sum() > 70
+    assert len(values) < 12
+    layers = composite(byte_layers_of(ball), passes, plain).astype(int)
+    assert np.abs(layers - premultiplied(picture)).max() <= 4
+
+
 def test_scenes_without_a_look_are_as_before_and_looks_survive_a_file() -> None:
     plain = default_scene(100, 80)
     assert (plain.look, plain.rim) == (Look(), None)

@@ -61,7 +61,7 @@ def composite_bytes(
         illumination.glossy if (smooth & (kinds & _BOTH == _GLOSSY)).any() else _UNIT,
         illumination.sheen if (smooth & (kinds & _BOTH == _BOTH)).any() else _UNIT,
         _steps(crop, layers.size, area), _tone_arguments(shading.tones),
-        _part_arguments(illumination, layers),
+        _part_arguments(shading, layers),
         contact is not None, _UNIT if contact is None else contact,
         _rim_arguments(shading.rim, layers, crop), np.float32(shading.ink_light),
         _UNIT if ratio is None else ratio,
@@ -89,10 +89,10 @@ def _tone_arguments(tones: Tones | None) -> tuple[Any, ...]:
     )  # fmt: skip
 
 
-def _part_arguments(illumination: Illumination, layers: ByteLayers) -> tuple[Any, ...]:
+def _part_arguments(shading: Shading, layers: ByteLayers) -> tuple[Any, ...]:
     """Light on parts of the character: their number, diffuse and glossy light, which labels and
     which layers each reaches, and the layer of each pixel."""
-    parts = illumination.parts
+    parts = shading.parts
     if not parts:
         none = np.zeros((1, 1), np.bool_)
         return 0, _UNIT[None], _UNIT[None], none, none, np.zeros((1, 1), np.int8)

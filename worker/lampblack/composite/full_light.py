@@ -18,9 +18,10 @@ BEHIND = 0.25
 Floats = NDArray[np.float32]
 
 
-def full_light(scene: Scene) -> float:
-    """The light on a surface in the middle of the canvas that faces the strongest light."""
-    return max((strength for _, (strength, _) in by_light(scene)), default=0.0)
+def full_light(scene: Scene, link: Link | None = None) -> float:
+    """The light on a surface in the middle of the canvas that faces the strongest of the lights
+    that light what ``link`` says; None is everything."""
+    return max((strength for _, (strength, _) in by_light(scene, link)), default=0.0)
 
 
 def strongest_light(scene: Scene) -> tuple[float, float]:
@@ -37,13 +38,15 @@ def exposure(light: float) -> float:
     return 1.0 if light <= 1 else (1 + 0.35 * math.log(light)) / light
 
 
-def by_light(scene: Scene) -> list[tuple[AreaLight, tuple[float, Floats]]]:
-    """Each light that lights everything, with the light on a surface in the middle of the canvas
-    that faces it, and with its colour times its power."""
+def by_light(
+    scene: Scene, link: Link | None = None
+) -> list[tuple[AreaLight, tuple[float, Floats]]]:
+    """Each light that lights what ``link`` says, None is everything; with the light on a surface in
+    the middle of the canvas that faces it, and with its colour times its power."""
     middle = scene.canvas.width / 2, scene.canvas.height / 2
     found = []
     for light, shines in zip(scene.lights, shining(scene.lights), strict=True):
-        if not shines or Link.of(light) is not None:
+        if not shines or Link.of(light) != link:
             continue
         weight = hex_linear(light.colour) * np.float32(light.power)
         distance = math.dist((light.x, light.y, light.z), (*middle, 0)) or 1.0
@@ -54,7 +57,9 @@ def by_light(scene: Scene) -> list[tuple[AreaLight, tuple[float, Floats]]]:
     return found
 
 
-def reach_of_light(scene: Scene, area: Box, size: tuple[int, int]) -> Floats:
+def reach_of_light(
+    scene: Scene, area: Box, size: tuple[int, int], link: Link | None = None
+) -> Floats:
     """(h, w) the full light at each element of ``area``: half way between that in the middle of the
     canvas and that at its own distance. A lamp lights what is near it, but tones follow the form
     more than the distance."""
@@ -63,7 +68,7 @@ def reach_of_light(scene: Scene, area: Box, size: tuple[int, int]) -> Floats:
     y = area[1] + (np.arange(height, dtype=np.float32)[:, None] + 0.5) * (area[3] / height)
     middle = scene.canvas.width / 2, scene.canvas.height / 2
     found = np.full(size, 1e-6, np.float32)
-    for light, (strength, _) in by_light(scene):
+    for light, (strength, _) in by_light(scene, link):
         far = (middle[0] - light.x) ** 2 + (middle[1] - light.y) ** 2 + light.z**2
         near = (x - light.x) ** 2 + (y - light.y) ** 2 + light.z**2
         fall = 1.0 if light.kind == "sun" else np.sqrt(far / np.maximum(near, 0.02 * far + 1))
@@ -71,7 +76,7 @@ def reach_of_light(scene: Scene, area: Box, size: tuple[int, int]) -> Floats:
     return found
 
 
-def hue_of_lights(scene: Scene) -> Floats:
+def hue_of_lights(scene: Scene, link: Link | None = None) -> Floats:
     """(3,) the colour of all lights, its brightest channel 1."""
-    total = sum((weight for _, (_, weight) in by_light(scene)), np.zeros(3, np.float32))
+    total = sum((weight for _, (_, weight) in by_light(scene, link)), np.zeros(3, np.float32))
     return np.asarray(total / total.max() if total.max() > 0 else total + 1, np.float32)

@@ -105,7 +105,7 @@ def light_at(drawing: Drawing, shading: Shading, band: Band) -> PixelLight:
 def parts_at(drawing: Drawing, shading: Shading, band: Band) -> tuple[PartLight, ...]:
     """The light on parts of the character, on the rows ``drawing`` of a whole drawing."""
     found = []
-    for link, diffuse, glossy in shading.illumination.parts:
+    for link, diffuse, glossy in shading.parts:
         diffuse, glossy = enlarge(diffuse, band), enlarge(glossy, band)
         if shading.contact is not None:
             near = enlarge(shading.contact, band)
@@ -123,7 +123,8 @@ def character_light(
     """Diffuse light, glossy light, and colours that are shown as drawn, for the fill in ``band``,
     all smooth; scene-linear (H, W, 3), unbounded."""
     materials = MaterialTable.of(scene, drawing.palette.colours).smooth()
-    shading = Shading(illumination, materials, None, None, None, None, 0.0)
+    parts = tuple(illumination.parts)
+    shading = Shading(illumination, materials, None, None, None, None, 0.0, parts)
     return reflected_light(drawing, shading, light_at(drawing, shading, band))
 
 

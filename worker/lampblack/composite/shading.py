@@ -11,9 +11,10 @@ from scipy import ndimage
 from ..materials import MaterialTable
 from ..scene import Scene
 from .illumination import Illumination
+from .linking import Link
 from .resample import Box
 from .rim import RimLight
-from .tones import Tones, toned_floor, tones_of
+from .tones import Tones, toned_floor, toned_part, tones_of
 
 CLOSED, OPEN = 0.15, 0.85
 """Ambient light at which a place counts as fully covered, and as open."""
@@ -33,6 +34,7 @@ class Shading:
         contact: (h, w, 1) by what light is multiplied where surfaces touch, or None.
         rim: the rim, or None.
         ink_light: how far the line takes light, 0 to 1.
+        parts: as in ``Illumination``, in tones if the scene is.
     """
 
     illumination: Illumination
@@ -42,6 +44,7 @@ class Shading:
     contact: Floats | None
     rim: RimLight | None
     ink_light: float
+    parts: tuple[tuple[Link, Floats, Floats], ...]
 
     @staticmethod
     def of(
@@ -66,7 +69,10 @@ class Shading:
         if look.contact and illumination.openness is not None:
             contact = _contact(illumination.openness, look.contact, scene, area)
         rim = RimLight.of(scene)
-        return Shading(illumination, materials, tones, ratio, contact, rim, look.ink_light)
+        parts = tuple(illumination.parts)
+        if look.tones:
+            parts = tuple((link, toned_part(d, link, scene, area), g) for link, d, g in parts)
+        return Shading(illumination, materials, tones, ratio, contact, rim, look.ink_light, parts)
 
 
 def _contact(openness: Floats, strength: float, scene: Scene, area: Box) -> Floats:

@@ -21,14 +21,15 @@ from ..drawing.morphology import highest
 from ..scene import Look, Scene
 from .full_light import exposure, full_light, hue_of_lights, reach_of_light
 from .illumination import Illumination, add_up
-from .resample import Band, Box
+from .linking import Link
+from .resample import Band, Box, enlarge
 from .spline import refined
 
 SMOOTHING = 0.003
 """Deviation of the smoothing, as a share of the canvas's longer side."""
 ISLAND = 0.022
 """Side of the smallest island of a tone, as a share of the canvas's longer side."""
-MOST_ISLANDS = 200
+MOST_ISLANDS = 60
 MARGIN = 0.25
 """Islands are sought a little beyond a threshold too, by this share of it."""
 FAINT = np.float32(0.02)
@@ -123,6 +124,30 @@ def tones_of(
     )
 
 
+def toned_part(light: Floats, link: Link, scene: Scene, area: Box) -> Floats:
+    """The light of those that light only ``link``, in tones, (h, w, 3): it is added to the tones of
+    all others. It is as large as tones are enlarged at most."""
+    full = np.float32(full_light(scene, link))
+    if full <= 0:
+        return light
+    height, width = light.shape[:2]
+    element = max(area[2] / width, area[3] / height)
+    longest = max(scene.canvas.width, scene.canvas.height)
+    brightest = light.max(axis=2)
+    reach = reach_of_light(scene, area, (height, width), link)
+    amount = _blurred(brightest / reach, max(0.6, SMOOTHING * longest / element))
+    lows, highs = steps(scene.look if scene.look.tones else CEL)
+    smallest = round((ISLAND * longest / element) ** 2)
+    fine = refined(without_islands(amount, lows, highs, smallest), MOST if element > 1 else 1)
+    shares = np.empty_like(fine)
+    _shares(fine, lows, highs, 0, fine.shape[0], fine.shape[0], shares)
+    faint, dark = FAINT * full + np.float32(1e-6), np.zeros(3, np.float32)
+    lit = np.empty((height, width, 3), np.float32)
+    _tint(light, brightest, faint, hue_of_lights(scene, link), dark, full, lit)
+    whole = Band(fine.shape[1], fine.shape[0], 0, fine.shape[0])
+    return np.asarray(shares[..., None] * enlarge(lit, whole), np.float32)
+
+
 def toned_floor(ratio: Floats, scene: Scene) -> Floats:
     """The floor's light with the character over that without it, (h, w, 3), in two tones: light,
     and one shade for the shadow."""
@@ -158,7 +183,7 @@ def without_islands(amount: Floats, lows: Floats, highs: Floats, smallest: int) 
     found = amount
     for low, high in zip(lows, highs, strict=True):
         # Also what nearly crosses the step: it would be seen as a ghost.
-        bright, dark = (high, low, low * (1 - MARGIN)), (low, high, high * (1 + MARGIN))
+        bright, dark = (high, low * (1 - MARGIN)), (low, high * (1 + MARGIN))
         levels = [*((level, True) for level in bright), *((level, False) for level in dark)]
         for level, lit in levels:
             regions, count = ndimage.label(found > level if lit else found < level)
