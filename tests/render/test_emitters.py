@@ -124,6 +124,29 @@ def test_a_light_without_shadow_throws_none_on_the_floor(child: RenderChild) -> 
     assert cast == pytest.approx(free, abs=0.02)
 
 
+def test_light_from_the_figure_fills_shadows_and_brightens_no_paper(child: RenderChild) -> None:
+    block = surface(height_relief(np.full((64, 96), 12.0), np.hypot(COLUMN - 48, ROW - 32) < 12))
+    white = np.ones((len(block.albedo), 3), np.float32)
+    emitter = glowing_parts(block.relief, white, 48)
+    assert emitter is not None
+    request = RenderRequest(
+        replace(block, emitters={"emission": emitter}), CANVAS, (), False, Floor(50, 40),
+        quality=quality(), glows=("emission",),
+    )  # fmt: skip
+    found = child.render(request).emission
+    assert found is not None
+    assert found.floor is not None
+    assert found.floor.max() > 0.1
+    assert np.array_equal(found.floor, found.open_floor)
+    view = (0.0, 0.0, 96.0, 64.0)
+    job = Accumulate(
+        CANVAS, view, (48, 32), None, Floor(50, 40), "floor", 8, 0, 8, True, "emission"
+    )
+    first, second = child.accumulate(request.surface, job)
+    assert np.array_equal(first, second)
+    assert first.max() > 0.1
+
+
 def test_the_light_of_an_emissive_colour_gathers_piece_by_piece(child: RenderChild) -> None:
     """In previews, as in finals."""
     wall = np.where(abs(COLUMN - 48) < 3, 20.0, 0.0)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from lampblack.colour import hex_linear, linear, srgb
 from lampblack.composite import composite
 from lampblack.composite.byte_layers import byte_layers_of, premultiplied
+from lampblack.composite.illumination import EMITTED
 from lampblack.drawing import DrawingPlanes
 from lampblack.drawing.drawing import Drawing
 from lampblack.drawing.palette import Palette, Swatch
@@ -214,6 +215,8 @@ def test_emission_adds_the_traced_light_of_the_brightest() -> None:
     passes = Passes((), flat(0), emission=flat(0.5))
     twice = {colour: replace(m, emission=2 * m.emission) for colour, m in materials.items()}
     first, second = both(drawing, passes, once), both(drawing, passes, scene(materials=twice))
-    assert first[4, 4] == pytest.approx(hex_linear(RED) * (0.02 + 0.5 * 10 * 0.02), abs=0.004)
-    assert first[4, 34] == pytest.approx(hex_linear(BLUE) * (0.01 + 0.5 * 10 * 0.02), abs=0.004)
+    assert first[4, 4] == pytest.approx(hex_linear(RED) * (0.02 + 0.5 * EMITTED * 0.02), abs=0.004)
+    assert first[4, 34] == pytest.approx(
+        hex_linear(BLUE) * (0.01 + 0.5 * EMITTED * 0.02), abs=0.004
+    )
     assert second == pytest.approx(2 * first, abs=0.006)

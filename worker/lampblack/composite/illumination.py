@@ -19,7 +19,7 @@ from .resample import Band, Box, enlarge
 
 VEIL = np.float32(0.1)
 """Share of the ambient light that glossy paint reflects: of a varnish seen from the front, 0.04."""
-EMITTED = 10.0
+EMITTED = 20.0
 """Radiance of a white surface with an emission of 1, in that of one that is fully lit. It is more
 than what is seen of it: a small flame is to light what is around it, and keep its colour."""
 PAINT = 10.0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .denoise import Denoiser
 from .engine import render_passes
 from .stage import Stage
-from .trace import character_light, floor_light, floor_passes
+from .trace import character_light, floor_light, floor_passes, own_floor_light
 from .wire import Accumulate
 
 Floats = NDArray[np.float32]
@@ -46,6 +46,9 @@ class Accumulation:
         views = [_divided(sums, self.spp) for sums in self.views]
         if job.subject == "character":
             return character_light(views[0], denoiser, "fast")
+        if job.glow == "emission":
+            light = own_floor_light(views[0], denoiser, "fast")
+            return light, light
         return floor_light(views[0], views[1], denoiser, "fast")
 
     def _add(self, stage: Stage, job: Accumulate) -> None:
@@ -57,6 +60,8 @@ class Accumulation:
         if job.subject == "character":
             stage.set_subject("character")
             views = [render_passes(stage.scene)]
+        elif job.glow == "emission":
+            views = [floor_passes(stage, "floor")]
         else:
             views = [floor_passes(stage, subject) for subject in ("floor", "bare floor")]
         weighted = [_multiplied(view, job.count) for view in views]

@@ -38,6 +38,9 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
         return LightPasses(diffuse, glossy)
     stage.set_sampling(job.quality.floor)
     stage.set_view(job.view, job.quality.floor.size(*job.view[2:]), job.canvas)
+    if job.glow == "emission":
+        light = own_floor_light(floor_passes(stage, "floor"), denoiser, job.quality.denoise)
+        return LightPasses(diffuse, glossy, light, light)
     cast, free = (floor_passes(stage, subject) for subject in ("floor", "bare floor"))
     return LightPasses(diffuse, glossy, *floor_light(cast, free, denoiser, job.quality.denoise))
 
@@ -64,6 +67,12 @@ def floor_light(
     change = denoiser.denoise(ratio, quality) - 1
     change -= np.clip(change, -UNSEEN, UNSEEN)
     return np.maximum(open_floor + change * (open_floor + FAINT), 0), open_floor
+
+
+def own_floor_light(cast: dict[str, Floats], denoiser: Denoiser, quality: DenoiseQuality) -> Floats:
+    """Irradiance over pi that the character itself gives to the floor, (h, w, 3). It counts as
+    light without the character too: it fills shadows, and paper is never brighter than drawn."""
+    return np.maximum(denoiser.denoise(_irradiance(cast), quality), 0)
 
 
 def floor_passes(stage: Stage, subject: Literal["floor", "bare floor"]) -> dict[str, Floats]:
