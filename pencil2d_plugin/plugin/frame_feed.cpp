@@ -19,10 +19,21 @@ FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObjec
     connect(&host, &Host::drawingChanged, this,
             [this](int frame)
             {
-                mApart.markChanged(frame, mHost.currentLayer());
-                invalidate(frame);
-                requestCurrent();
+                const QVector<int> frames = framesLike(frame);
+                for (const int each : frames)
+                {
+                    mApart.markChanged(each, mHost.currentLayer());
+                    invalidate(each);
+                    Q_EMIT frameRedrawn(each);
+                }
+                if (mRest.interval() > 0)
+                    mRest.start();
+                else
+                    requestCurrent();
             });
+    mRest.setSingleShot(true);
+    mRest.setInterval(0);
+    connect(&mRest, &QTimer::timeout, this, &FrameFeed::requestCurrent);
     const auto startOver = [this]
     {
         invalidateAll();
@@ -36,6 +47,8 @@ FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObjec
 
 void FrameFeed::setEnabled(bool enabled)
 {
+    if (!enabled && !mEnabled)
+        return;
     mEnabled = enabled;
     if (enabled)
         requestCurrent();
@@ -99,13 +112,32 @@ void FrameFeed::onFrameExported(const FrameExport& frame, const DrawnLayers& lay
         return;
     mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage, layers);
     mUpToDate.insert(frame.frame);
+    const QImage before = mBefore.take(frame.frame);
+    if (!before.isNull() && before == frame.image)
+        Q_EMIT frameSame(frame.frame);
     const int cost = int(frame.image.sizeInBytes() / 1024) + 1;
     mExports.insert(frame.frame, new FrameExport(frame), cost);
     Q_EMIT frameSent(frame.frame);
 }
 
+/// The frame and those that show the same drawing, or may do so: a drawing is held over several frames.
+QVector<int> FrameFeed::framesLike(int frame) const
+{
+    QVector<int> frames{frame};
+    const FrameExport* changed = mExports.object(frame);
+    for (const int other : mUpToDate)
+    {
+        const FrameExport* shown = mExports.object(other);
+        if (other != frame && (changed == nullptr || shown == nullptr || shown->image == changed->image))
+            frames.append(other);
+    }
+    return frames;
+}
+
 void FrameFeed::invalidate(int frame)
 {
+    if (const FrameExport last = lastExport(frame); !last.image.isNull() && !mBefore.contains(frame))
+        mBefore.insert(frame, last.image);
     mUpToDate.remove(frame);
     mExports.remove(frame);
     Q_EMIT frameOutdated(frame);
@@ -117,6 +149,7 @@ void FrameFeed::invalidateAll()
     mUpToDate.swap(outdated);
     outdated.insert(mHost.currentFrame());
     mExports.clear();
+    mBefore.clear();
     cancelRequests();
     mApart.markAllChanged();
     mWorker.dropAllFrames();

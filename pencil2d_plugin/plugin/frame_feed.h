@@ -8,6 +8,7 @@
 
 #include <QCache>
 #include <QSet>
+#include <QTimer>
 
 namespace lampblack
 {
@@ -23,6 +24,10 @@ public:
 
     /// While disabled, nothing is exported.
     void setEnabled(bool enabled);
+    /// With patience a drawing that has changed is exported when the artist has paused for a moment.
+    void setPatient(bool patient) { mRest.setInterval(patient ? RestMs : 0); }
+    /// A changed drawing waits for that pause.
+    bool isResting() const { return mRest.isActive(); }
 
     /// Whether the worker has the frame as it is drawn now.
     bool isUpToDate(int frame) const { return mUpToDate.contains(frame); }
@@ -43,12 +48,19 @@ public:
 Q_SIGNALS:
     void frameSent(int frame);     ///< the worker has the frame as it is drawn now
     void frameOutdated(int frame); ///< the frame's drawing has changed
+    /// Its drawing may be another one than before, as that of each frame which holds it; frameSame() follows
+    /// if it is not.
+    void frameRedrawn(int frame);
+    void frameSame(int frame);
     void frameFailed(int frame, const lampblack::UserError& error);
 
 private:
+    static constexpr int RestMs = 600;
+
     void cancelRequests();
     void onFrameExported(const FrameExport& frame, const DrawnLayers& layers);
     void invalidate(int frame);
+    QVector<int> framesLike(int frame) const;
     void invalidateAll();
 
     Host& mHost;
@@ -56,8 +68,10 @@ private:
     SceneDocument& mDocument;
     LayersApart mApart;
     bool mEnabled = false;
+    QTimer mRest;
     QSet<int> mUpToDate;
     QCache<int, FrameExport> mExports; ///< cost in KiB
+    QHash<int, QImage> mBefore;        ///< of frames that may have been redrawn
 };
 
 } // namespace lampblack

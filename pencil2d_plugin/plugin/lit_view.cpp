@@ -60,6 +60,7 @@ LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit
     connect(&host, &Host::viewChanged, this, &LitView::onViewChanged);
     connect(&host, &Host::frameChanged, this, &LitView::onViewChanged);
     connect(&host, &Host::toolActivated, this, &LitView::onViewChanged);
+    connect(&tool, &LampTool::lightingChanged, this, &LitView::onViewChanged);
     connect(&host, &Host::projectOpened, this, &LitView::forgetPictures);
     connect(&feed, &FrameFeed::frameSent, this, &LitView::onFrameChanged);
     connect(&feed, &FrameFeed::frameOutdated, this, &LitView::onFrameChanged);
@@ -79,7 +80,9 @@ bool LitView::eventFilter(QObject*, QEvent* event)
 
 bool LitView::isShowing() const
 {
-    return mTool.isActive() && mTool.viewMode() && mHost.can(Host::Ability::View);
+    // On lit frames light would lie twice.
+    return (mTool.isActive() || (mTool.isDrawing() && !mStandIns.showsResult())) && mTool.viewMode() &&
+           mHost.can(Host::Ability::View);
 }
 
 void LitView::forgetPictures()
@@ -126,10 +129,12 @@ void LitView::show()
                        covers(cached->crop, cropInSight());
     const bool isOld = cached == nullptr || (isKnown && fit == Worker::Fit::OldDrawing);
     const bool isOtherFrame = std::exchange(mShownFrame, frame) != frame;
-    const bool stays = !isOld && !isOtherFrame && mShown == Shown::Lit;
+    // The light of the last drawing is good for the next stroke.
+    const bool lasts = mTool.isDrawing() && mShown != Shown::Nothing;
+    const bool stays = !isOtherFrame && (lasts || (!isOld && mShown == Shown::Lit));
     const bool returns = !isOld && fit != Worker::Fit::OldScene;
     bool isEmpty = false;
-    if (isLit || ((stays || returns) && mUnlit.isLoaded(frame)))
+    if (isLit || (!lasts && (stays || returns) && mUnlit.isLoaded(frame)))
         showPicture(*cached);
     else if (!stays)
         isEmpty = !showStandIn();
@@ -144,10 +149,12 @@ void LitView::showPicture(const PreviewImage& picture)
 {
     mTool.setUnlitLayers(mUnlit.below(picture.frame), mUnlit.above(picture.frame));
     mTool.setPicture(picture);
+    const FrameExport drawn = mFeed.lastExport(picture.frame);
     std::optional<StandIn> rest;
     if (picture.show == Show::Lit && !covers(picture.crop, cropInSight()))
         rest = mStandIns.current();
     mTool.setStandIn(rest ? rest->picture : PreviewImage(), rest ? rest->canvasToImage : QTransform());
+    mTool.setDrawn(mWorker.fit(picture) == Worker::Fit::OldDrawing ? FrameExport() : drawn);
     mShown = Shown::Lit;
 }
 
@@ -165,6 +172,7 @@ bool LitView::showStandIn()
                          found->isWhole ? FrameExport() : mUnlit.above(frame));
     mTool.setPicture(PreviewImage());
     mTool.setStandIn(found->picture, found->canvasToImage);
+    mTool.setDrawn(found->drawn);
     mShown = Shown::StandIn;
     return true;
 }
@@ -211,7 +219,7 @@ void LitView::askAgain()
     // An answer may have been lost on its way. A busy worker has not forgotten.
     if (mWorker.state() == Worker::State::Ready)
         mWorker.cancelPreview();
-    if (!mFeed.isUpToDate(mHost.currentFrame()))
+    if (!mFeed.isUpToDate(mHost.currentFrame()) && !mFeed.isResting())
         mFeed.requestCurrent();
     requestPicture();
     mPatience.start(std::min(2 * mPatience.interval(), LongestPatienceMs));

@@ -28,6 +28,7 @@ ShotJob::ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, S
                 mUpToDate.remove(frame);
                 mOutdated.insert(frame);
             });
+    connect(&feed, &FrameFeed::frameRedrawn, this, [this](int frame) { mRedrawn.insert(frame); });
     connect(&feed, &FrameFeed::frameFailed, this,
             [this](int frame, const UserError& error)
             {
@@ -45,10 +46,12 @@ ShotJob::ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, S
     connect(&layer, &LitLayer::delivered, this,
             [this]
             {
-                if (mDeliveringLayer)
-                    finish(tr("%1 lit frames are in the layer \"%2\" and in %3")
-                               .arg(mRendered.size())
-                               .arg(resultLayer(), outputFolder()));
+                if (!mDeliveringLayer)
+                    return;
+                Q_EMIT framesDelivered(mRendered - mRedrawn, mScene);
+                finish(tr("%1 lit frames are in the layer \"%2\" and in %3")
+                           .arg(mRendered.size())
+                           .arg(resultLayer(), outputFolder()));
             });
     connect(&layer, &LitLayer::failed, this,
             [this](const UserError& error)
@@ -136,7 +139,15 @@ void ShotJob::generateSurfaces()
 
 void ShotJob::render(FrameRange range, bool hideSources)
 {
-    if (mKind != Kind::None)
+    QVector<int> frames;
+    for (int frame = range.first; frame <= range.last; ++frame)
+        frames.append(frame);
+    renderFrames(frames, hideSources);
+}
+
+void ShotJob::renderFrames(const QVector<int>& frames, bool hideSources)
+{
+    if (mKind != Kind::None || frames.isEmpty())
         return;
     if (outputFolder().isEmpty())
     {
@@ -155,9 +166,6 @@ void ShotJob::render(FrameRange range, bool hideSources)
         mUpToDate.clear();
     mScene = mDocument.scene();
     mHideSources = hideSources;
-    QVector<int> frames;
-    for (int frame = range.first; frame <= range.last; ++frame)
-        frames.append(frame);
     const QString project = mSaved.path();
     begin(Kind::Render, frames, project.isEmpty());
     if (!project.isEmpty())
@@ -184,6 +192,7 @@ void ShotJob::begin(Kind kind, const QVector<int>& frames, bool sendDrawings)
     mErrors.clear();
     mRendered.clear();
     mOutdated.clear();
+    mRedrawn.clear();
     if (!sendDrawings)
     {
         mUnsent.clear();
@@ -192,7 +201,8 @@ void ShotJob::begin(Kind kind, const QVector<int>& frames, bool sendDrawings)
     }
     mUnsent = QSet<int>(frames.begin(), frames.end());
     Q_EMIT progressChanged(mKind, 0, mTotal, tr("Reading the drawings"));
-    mFeed.requestAll(frames.first(), frames.last());
+    for (const int frame : frames)
+        mFeed.requestAll(frame, frame);
 }
 
 void ShotJob::onFrameSent(int frame)
@@ -207,6 +217,7 @@ void ShotJob::onFrameSent(int frame)
 void ShotJob::onAllFramesSent()
 {
     mOutdated.clear();
+    mRedrawn.clear();
     if (mKind != Kind::Render)
         return;
     QVector<int> missing;

@@ -38,16 +38,20 @@ public:
     /// with unsaved changes, the drawings are. Files that are up to date are not rendered again. With
     /// `hideSources` the lit layers are hidden if the result layer covers the whole animation.
     void render(FrameRange range, bool hideSources);
+    void renderFrames(const QVector<int>& frames, bool hideSources);
 
     void cancel();
 
     /// Where render() writes; empty while the project has no file.
     QString outputFolder() const;
+    QString framePath(int frame) const;
 
 Q_SIGNALS:
     void progressChanged(lampblack::ShotJob::Kind kind, int done, int total, const QString& doing);
     void finished(lampblack::ShotJob::Kind kind, const QString& message);
     void problem(const lampblack::UserError& error);
+    /// These frames are in the result layer, lit under this scene.
+    void framesDelivered(const QSet<int>& frames, const lampblack::Scene& scene);
 
 private:
     void connectWorker();
@@ -59,7 +63,6 @@ private:
     void reportMissing();
     void finishWithFiles();
     void finish(const QString& message);
-    QString framePath(int frame) const;
     QString outputPattern() const;
 
     Host& mHost;
@@ -75,6 +78,7 @@ private:
     quint64 mRenderJob = 0;
     QSet<int> mUpToDate; ///< frames whose files show the current drawings under mScene
     QSet<int> mRendered; ///< frames whose files exist for this job
+    QSet<int> mRedrawn;  ///< of those, frames that may show another drawing
     QSet<int> mOutdated; ///< frames whose drawings changed during this job
     Scene mScene;        ///< the scene of the last render job
     QStringList mErrors;

@@ -54,6 +54,7 @@ std::optional<StandIn> StandIns::current()
     made.scene = scene;
     made.standIn.isWhole = exported.image.isNull();
     made.standIn.canvasToImage = made.source.canvasToImage;
+    made.standIn.drawn = made.source;
     made.standIn.picture.frame = frame;
     if (!made.shape.isEmpty())
     {

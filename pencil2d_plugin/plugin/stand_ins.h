@@ -19,6 +19,7 @@ struct StandIn
 {
     PreviewImage picture; ///< null: there is nothing to light
     QTransform canvasToImage;
+    FrameExport drawn;    ///< that it was made from
     bool isWhole = false; ///< with everything that is seen, not the lit layers alone
 };
 
@@ -35,6 +36,9 @@ public:
     /// For the current frame, under the scene as it is now. No value if it cannot be told what is drawn.
     std::optional<StandIn> current();
 
+    /// Whether the canvas shows frames that are lit already.
+    bool showsResult() const;
+
 private:
     struct Kept
     {
@@ -45,7 +49,6 @@ private:
     };
 
     std::optional<FrameExport> seenOnCanvas() const;
-    bool showsResult() const;
 
     Host& mHost;
     FrameFeed& mFeed;

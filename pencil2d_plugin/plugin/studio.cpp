@@ -16,10 +16,18 @@ Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
       mCuts(std::make_unique<CutFeed>(host, *mWorker, *mFeed, mDocument, *mTool)),
       mLayer(std::make_unique<LitLayer>(host, mDocument)),
       mJob(std::make_unique<ShotJob>(host, *mWorker, *mFeed, *mLayer, mDocument)),
+      mLitFrames(std::make_unique<LitFrames>(host, *mFeed, *mLayer, mDocument,
+                                             [this](int frame) { return mJob->framePath(frame); })),
       mProject(std::make_unique<ProjectScene>(host, mDocument, *mLayer)), mMaterialsRoom(host)
 {
     setObjectName(QStringLiteral("lampblack"));
     connect(mTool.get(), &LampTool::activeChanged, this, &Studio::onToolActive);
+    connect(mTool.get(), &LampTool::lightingChanged, this,
+            [this]
+            {
+                if (!mTool->isActive())
+                    updateFeed();
+            });
     connect(&mDocument, &SceneDocument::sceneChanged, this, &Studio::sendScene);
     connect(mWorker.get(), &Worker::imageArrived, this,
             [this](const PreviewImage& image)
@@ -80,6 +88,7 @@ QVariantList Studio::cutPlaces() const
 
 void Studio::close()
 {
+    mLitFrames.reset();
     mJob.reset();
     mCuts.reset();
     mView.reset();
@@ -93,12 +102,18 @@ void Studio::close()
 
 void Studio::onToolActive(bool active)
 {
-    mFeed->setEnabled(active || mJob->runningKind() != ShotJob::Kind::None);
+    updateFeed();
     if (!active)
         return;
     // Not earlier, so that an artist who never lights does not pay for a worker.
     mWorker->start();
     sendScene();
+}
+
+void Studio::updateFeed()
+{
+    mFeed->setPatient(mTool->isDrawing());
+    mFeed->setEnabled(mTool->isLighting() || mJob->runningKind() != ShotJob::Kind::None);
 }
 
 void Studio::sendScene()
@@ -156,6 +171,15 @@ void Studio::connectJobs()
                 startWorker();
                 mJob->render(selectedRange(), mTool->hidesSources());
             });
+    connect(mTool.get(), &LampTool::renderChangedRequested, mJob.get(),
+            [this, startWorker]
+            {
+                startWorker();
+                mJob->renderFrames(mLitFrames->outdated(), false);
+            });
+    connect(mJob.get(), &ShotJob::framesDelivered, mLitFrames.get(), &LitFrames::setLit);
+    connect(mLitFrames.get(), &LitFrames::changed, this,
+            [this] { mTool->setOutdated(mLitFrames->outdated().size(), mLitFrames->total()); });
     connect(mTool.get(), &LampTool::cancelRequested, mJob.get(), &ShotJob::cancel);
     connect(mJob.get(), &ShotJob::problem, mTool.get(), &LampTool::showProblem);
     connect(mJob.get(), &ShotJob::progressChanged, this,
@@ -175,7 +199,7 @@ void Studio::connectJobs()
                 else
                     mTool->setSurfaceProgress(0, 0);
                 mHost.showStatus(message, 10000);
-                mFeed->setEnabled(mTool->isActive());
+                updateFeed();
             });
 }
 

@@ -5,6 +5,7 @@
 #include "plugin/cut_feed.h"
 #include "plugin/dock_room.h"
 #include "plugin/frame_feed.h"
+#include "plugin/lit_frames.h"
 #include "plugin/lit_layer.h"
 #include "plugin/lit_view.h"
 #include "plugin/project_scene.h"
@@ -51,6 +52,7 @@ public:
 
 private:
     void onToolActive(bool active);
+    void updateFeed();
     void sendScene();
     void onPaletteArrived(int frame, const QVector<Swatch>& swatches);
     void connectJobs();
@@ -66,6 +68,7 @@ private:
     std::unique_ptr<CutFeed> mCuts;
     std::unique_ptr<LitLayer> mLayer;
     std::unique_ptr<ShotJob> mJob;
+    std::unique_ptr<LitFrames> mLitFrames;
     std::unique_ptr<ProjectScene> mProject;
     DockRoom mMaterialsRoom;
     QMap<QString, quint64> mColourPixels; ///< most pixels that each flat colour had in one frame

@@ -11,6 +11,8 @@
 #include "tool/materials/materials_dock.h"
 #include "tool/panel/lamp_panel.h"
 
+#include <utility>
+
 // Resources of a static library must be initialised, and from outside any namespace.
 static void initIcons()
 {
@@ -22,7 +24,7 @@ namespace lampblack
 
 LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mTool(new QAction(this)),
-      mRender(new QAction(this))
+      mRender(new QAction(this)), mKeep(new QAction(this))
 {
     initIcons();
     addTool();
@@ -32,6 +34,12 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
     connect(&worker, &Worker::problem, this, &LampTool::showProblem);
     connect(&document, &SceneDocument::problem, this, &LampTool::showProblem);
     connect(&host, &Host::toolActivated, this, &LampTool::setActive);
+    connect(&host, &Host::projectOpened, this,
+            [this]
+            {
+                mWasActive = mActive; // another project is drawn in the light only once it was lit
+                updateOverlay();
+            });
 }
 
 LampTool::~LampTool()
@@ -60,6 +68,13 @@ void LampTool::addTool()
         "Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the project"));
     connect(mRender, &QAction::triggered, this, &LampTool::renderAllRequested);
     mHost.addAnimationAction(mRender);
+    mKeep->setObjectName(QStringLiteral("lampblack.keep_light"));
+    mKeep->setText(tr("Keep the Light While Drawing"));
+    mKeep->setToolTip(tr("Once the lamp was used, its light stays on the canvas while you draw"));
+    mKeep->setCheckable(true);
+    mKeep->setChecked(true);
+    connect(mKeep, &QAction::toggled, this, &LampTool::updateOverlay);
+    mHost.addAnimationAction(mKeep);
     if (mHost.can(Host::Ability::Palette))
     {
         mHost.addTool(mTool);
@@ -75,6 +90,8 @@ void LampTool::addPanel()
     connect(mPanel, &LampPanel::viewModeChanged, this, &LampTool::setViewMode);
     connect(mPanel->render(), &RenderSection::generateSurfacesRequested, this,
             &LampTool::generateSurfacesRequested);
+    connect(mPanel->render(), &RenderSection::renderChangedRequested, this,
+            &LampTool::renderChangedRequested);
     connect(mPanel->render(), &RenderSection::cancelRequested, this, &LampTool::cancelRequested);
     connect(&mWorker, &Worker::stateChanged, mPanel.data(), &LampPanel::setWorkerState);
     mPanel->setWorkerState(mWorker.state());
@@ -118,7 +135,7 @@ void LampTool::setUpCanvas()
     mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput, mCuts, mBrush);
     mMenu = new LampMenu(mHost, mDocument, mHost.canvas());
     connect(&mHost, &Host::playingChanged, mOverlay.data(),
-            [this](bool playing) { mOverlay->setHandlesShown(!playing); });
+            [this](bool playing) { mOverlay->setPlaying(playing); });
     connect(mInput, &CanvasInput::menuRequested, mMenu.data(),
             [this](const QPointF& canvas, const QPoint& global, const Handle& handle)
             { mMenu->openAt(canvas, global, handle, mColours.at(canvas)); });
@@ -208,15 +225,30 @@ void LampTool::setActive(bool active)
     if (active == mActive)
         return;
     mActive = active;
+    mWasActive = true;
     if (mOverlay)
-    {
-        mOverlay->setVisible(active);
-        mOverlay->raise();
-        mOverlay->updateHandles();
         mKeys->setListening(active);
-    }
+    updateOverlay();
     updateInput();
     Q_EMIT activeChanged(active);
+}
+
+bool LampTool::isDrawing() const
+{
+    return !mActive && mWasActive && mKeep->isChecked() && viewMode() == Show::Lit;
+}
+
+void LampTool::updateOverlay()
+{
+    if (mOverlay)
+    {
+        mOverlay->setDrawing(isDrawing());
+        mOverlay->setVisible(isLighting());
+        mOverlay->raise();
+        mOverlay->updateHandles();
+    }
+    if (std::exchange(mLighting, isLighting()) != isLighting())
+        Q_EMIT lightingChanged(mLighting);
 }
 
 std::optional<Show> LampTool::viewMode() const
@@ -268,6 +300,12 @@ void LampTool::setStandIn(const PreviewImage& picture, const QTransform& canvasT
         mOverlay->setStandIn(picture, canvasToImage);
 }
 
+void LampTool::setDrawn(const FrameExport& drawn)
+{
+    if (mOverlay)
+        mOverlay->setDrawn(drawn);
+}
+
 void LampTool::clearPicture()
 {
     if (mOverlay)
@@ -308,6 +346,12 @@ void LampTool::setSurfaceProgress(int done, int total)
 {
     if (mPanel)
         mPanel->render()->setSurfaceProgress(done, total);
+}
+
+void LampTool::setOutdated(int outdated, int total)
+{
+    if (mPanel)
+        mPanel->render()->setOutdated(outdated, total);
 }
 
 void LampTool::setRenderProgress(int done, int total)

@@ -37,6 +37,9 @@ public:
     ~LampTool() override;
 
     bool isActive() const { return mActive; }
+    /// The lamp was put down for another tool, and its light stays on the canvas.
+    bool isDrawing() const;
+    bool isLighting() const { return mActive || isDrawing(); }
     /// What the canvas shows while the lamp is in use. No value: the drawing as drawn.
     std::optional<Show> viewMode() const;
     void setViewMode(std::optional<Show> mode);
@@ -46,6 +49,7 @@ public:
 
     QAction* toolAction() { return mTool; }
     QAction* renderAction() { return mRender; } ///< "Render All Frames"
+    QAction* keepAction() { return mKeep; }     ///< "Keep the Light While Drawing"
     ShotRange shotRange() const;
     bool hidesSources() const; ///< whether the lit layers are hidden once the result layer is there
 
@@ -57,6 +61,8 @@ public Q_SLOTS:
     /// Show a picture instead of the drawing; a null one for none. It is ignored if viewMode() is another
     /// one.
     void setPicture(const lampblack::PreviewImage& picture);
+    /// The drawing that the picture was made from, or its stand-in.
+    void setDrawn(const lampblack::FrameExport& drawn);
     /// Show a picture, with a camera of its own, where no lit one is; a null picture for none.
     void setStandIn(const lampblack::PreviewImage& picture, const QTransform& canvasToImage);
     void clearPicture();
@@ -76,17 +82,23 @@ public Q_SLOTS:
     void setSurfaceProgress(int done, int total);
     void setRenderProgress(int done, int total);
 
+    /// How many frames of the result layer are out of date, and how many it has.
+    void setOutdated(int outdated, int total);
+
     void showProblem(const lampblack::UserError& error);
 
 Q_SIGNALS:
     void activeChanged(bool active);
+    void lightingChanged(bool lighting); ///< isLighting()
     void viewModeChanged();
     void generateSurfacesRequested();
     void renderAllRequested();
+    void renderChangedRequested();
     void cancelRequested();
 
 private:
     void setActive(bool active);
+    void updateOverlay();
     void addTool();
     void addPanel();
     void addDock();
@@ -100,10 +112,13 @@ private:
     Worker& mWorker;
     SceneDocument& mDocument;
     bool mActive = false;
+    bool mWasActive = false; ///< and the artist has not put the light away since
+    bool mLighting = false;
     FrameColours mColours;
     QHash<int, QTransform> mCameras; ///< canvas to image, by frame, if not identity
     QAction* mTool;
     QAction* mRender;
+    QAction* mKeep; ///< "Keep the Light While Drawing"
     // These belong to the host's window and may be deleted with it.
     QPointer<LampPanel> mPanel;
     QPointer<MaterialsDock> mMaterials;

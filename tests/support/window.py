@@ -141,6 +141,9 @@ class Pencil2D:
         wait_until(lambda: self.of_class("ScribbleArea"), "Pencil2D's canvas")
         title = project.name if project else "Pencil2D"
         self.window = wait_until(lambda: self._main_window(title), "Pencil2D's window")
+        if plugin:  # until a test asks for it, another tool sees the plain drawing
+            wait_until(lambda: self.find("lampblack.keep_light"), "the plugin")
+            self.set("lampblack.keep_light", "checked", False)
         self.display.do("windowsize", "--sync", self.window, *(round(n * scale) for n in WINDOW))
         self.display.do("windowmove", "--sync", self.window, 2, 20)
         self.display.do("windowactivate", "--sync", self.window)

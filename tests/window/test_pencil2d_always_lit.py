@@ -12,10 +12,12 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from support.lamp import Canvas, keep, light_up, project_in, settled
+from support.registration import luminance
 from support.window import Pencil2D, wait_until
 
 FUR = "#4f8fb3"
@@ -183,3 +185,35 @@ def test_another_project_is_never_ready_while_it_is_plain(
     wait_until(lambda: shows_light(window), "a shading", 10)
     with staying_lit(window, plain):
         settled(window)
+
+
+def draw_lines(window: Pencil2D, canvas: Canvas, count: int) -> dict[str, Any]:
+    """Strokes on the figure; what the event loop's turns took meanwhile."""
+    window.stalls()
+    for line in range(count):
+        y = 470 + 8 * line
+        for _ in window.drag([canvas.screen(250 + 5 * i, y) for i in range(30)]):
+            pass
+    return window.stalls()
+
+
+def test_drawing_keeps_the_light(window: Pencil2D, plain: float) -> None:
+    window.set("lampblack.keep_light", "checked", True)
+    canvas = Canvas(window)
+    try:
+        with staying_lit(window, plain):
+            window.click("pencilButton")
+            time.sleep(1)
+            keep(window, "drawing")
+            draw_lines(window, canvas, 3)
+            keep(window, "drawn")
+            time.sleep(3)
+            window.click("eraserButton")
+            draw_lines(window, canvas, 1)
+            time.sleep(2)
+            settled(window)
+        keep(window, "drawn and lit")
+        settled_ink = canvas.crop(300, 468, 60, 20)
+        assert luminance(settled_ink).min() < 0.5, "the strokes are there"
+    finally:
+        window.set("lampblack.keep_light", "checked", False)

@@ -20,6 +20,7 @@ CanvasOverlay::CanvasOverlay(Host& host, const SceneDocument& document)
     hide();
     setGeometry(host.canvas()->rect());
     host.canvas()->installEventFilter(this);
+    connect(&mLayer, &LightLayer::changed, this, qOverload<>(&QWidget::update));
     connect(&document, &SceneDocument::sceneChanged, this, &CanvasOverlay::updateHandles);
     connect(&document, &SceneDocument::selectionChanged, this, &CanvasOverlay::updateHandles);
     connect(&host, &Host::viewChanged, this, &CanvasOverlay::updateHandles);
@@ -70,6 +71,7 @@ void CanvasOverlay::clearPicture()
         return;
     const QRect before = mCanvasToWidget ? mPicture.bounds(*mCanvasToWidget) : rect();
     mPicture.clear();
+    mLayer.clear();
     update(before);
 }
 
@@ -81,12 +83,40 @@ void CanvasOverlay::setComparing(bool comparing)
     update();
 }
 
-void CanvasOverlay::setHandlesShown(bool shown)
+void CanvasOverlay::setPlaying(bool playing)
 {
-    if (shown == mHandlesShown)
+    if (playing == mPlaying)
         return;
-    mHandlesShown = shown;
-    update(mCutsShown ? QRegion(rect()) : handlesRegion());
+    mPlaying = playing;
+    update();
+}
+
+void CanvasOverlay::setDrawing(bool drawing)
+{
+    if (drawing == mDrawing)
+        return;
+    mDrawing = drawing;
+    mLayer.clear();
+    followPicture();
+    update();
+}
+
+void CanvasOverlay::setDrawn(const FrameExport& drawn)
+{
+    mPicture.setDrawn(drawn);
+    followPicture();
+}
+
+void CanvasOverlay::followPicture()
+{
+    if (mDrawing && mCanvasToWidget)
+        mLayer.follow(mPicture, *mCanvasToWidget, size(), mHost.paper());
+}
+
+/// An animation that plays, or a frame whose light is not known as such, is shown as a picture.
+bool CanvasOverlay::showsLayer() const
+{
+    return mDrawing && !mPlaying && mLayer.isReady(mHost.currentFrame());
 }
 
 void CanvasOverlay::setCutsShown(bool shown)
@@ -153,6 +183,7 @@ void CanvasOverlay::updateHandles()
     if (transform != mCanvasToWidget)
     {
         mCanvasToWidget = transform;
+        followPicture();
         update();
     }
     const QRegion before = handlesRegion();
@@ -168,9 +199,11 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
         return;
     QPainter painter(this);
     painter.setClipRegion(event->region());
-    if (showsPicture() || showsStandIn())
+    if (showsLayer())
+        mLayer.paint(painter, *mCanvasToWidget);
+    else if (showsPicture() || showsStandIn())
         mPicture.paint(painter, *mCanvasToWidget, size(), devicePixelRatioF(), mHost.paper());
-    if (!mHandlesShown)
+    if (mPlaying || mDrawing)
         return;
     if (mBrush)
     {

@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/canvas/handles.h"
+#include "tool/canvas/light_layer.h"
 #include "tool/canvas/lit_picture.h"
 #include "tool/depth/brush_painter.h"
 #include "tool/depth/cuts.h"
@@ -33,12 +34,17 @@ public:
     void setUnlitLayers(const FrameExport& below, const FrameExport& above);
     /// What is shown where the picture does not reach; a null picture for nothing.
     void setStandIn(const PreviewImage& image, const QTransform& canvasToImage);
+    /// The drawing that both were made from; a null image if it is not known.
+    void setDrawn(const FrameExport& drawn);
     void clearPicture();
+
+    /// While the artist draws there is only the light, on whatever the canvas shows.
+    void setDrawing(bool drawing);
 
     /// While comparing, the drawing is shown as drawn.
     void setComparing(bool comparing);
     /// Handles and cuts are hidden while the animation plays.
-    void setHandlesShown(bool shown);
+    void setPlaying(bool playing);
 
     /// Show cuts instead of the handles.
     void setCutsShown(bool shown);
@@ -64,17 +70,21 @@ protected:
 
 private:
     QRegion handlesRegion() const;
+    void followPicture();
+    bool showsLayer() const;
 
     Host& mHost;
     const SceneDocument& mDocument;
     std::optional<QTransform> mCanvasToWidget;
     LitPicture mPicture;
+    LightLayer mLayer;
     Handles mHandles;
     Handle mHovered;
     QString mTag;
     QPointF mTagPosition;
     bool mComparing = false;
-    bool mHandlesShown = true;
+    bool mDrawing = false;
+    bool mPlaying = false;
     bool mCutsShown = false;
     QVector<Cut> mCuts;
     int mHoveredCut = -1;

@@ -203,7 +203,7 @@ QSet<QRgb> unlitColours(const Scene& scene)
     QSet<QRgb> unlit;
     for (auto material = scene.materials.begin(); material != scene.materials.end(); ++material)
     {
-        if (!material.value().diffuse && !material.value().glossy)
+        if ((!material.value().diffuse && !material.value().glossy) || material.value().emission > 0)
             unlit.insert(QColor(material.key()).rgb());
     }
     return unlit;

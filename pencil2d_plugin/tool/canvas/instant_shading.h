@@ -25,7 +25,7 @@ InstantLight lightOn(const InstantShape& shape, const Scene& scene, const QTrans
 
 /// The drawing in that light: Format_RGBA8888_Premultiplied, its long side at most `longSide` pixels. Where
 /// lines enclose bare paper the picture darkens what is under it. Colours whose material is neither diffuse
-/// nor glossy stay as drawn.
+/// nor glossy, or shines itself, stay as drawn.
 QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const InstantLight& light,
                      const Scene& scene, int longSide = 1024);
 

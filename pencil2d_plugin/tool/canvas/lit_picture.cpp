@@ -65,6 +65,7 @@ void LitPicture::clear()
 {
     mImage = PreviewImage();
     mStandIn = PreviewImage();
+    mDrawn = FrameExport();
     mCache = QPixmap();
 }
 
@@ -92,9 +93,7 @@ void LitPicture::paint(QPainter& painter, const QTransform& canvasToWidget, cons
         cache.fill(Qt::transparent);
         QPainter into(&cache);
         into.translate(-area.topLeft());
-        into.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
-        draw(into, mStandIn, mCanvasToStandIn, canvasToWidget, paper);
-        draw(into, mImage, mCanvasToImage, canvasToWidget, paper);
+        drawLit(into, canvasToWidget, paper);
         into.end();
         mCache = cache;
         mCachePosition = area.topLeft();
@@ -103,6 +102,35 @@ void LitPicture::paint(QPainter& painter, const QTransform& canvasToWidget, cons
         mCachePaper = paper;
     }
     painter.drawPixmap(mCachePosition, mCache);
+}
+
+void LitPicture::drawLit(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const
+{
+    painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
+    draw(painter, mStandIn, mCanvasToStandIn, canvasToWidget, paper);
+    draw(painter, mImage, mCanvasToImage, canvasToWidget, paper);
+}
+
+void LitPicture::drawPlain(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const
+{
+    painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
+    PreviewImage plain;
+    plain.picture = mDrawn.image;
+    plain.crop = QRectF(mDrawn.image.rect());
+    draw(painter, plain, mDrawn.canvasToImage, canvasToWidget, paper);
+}
+
+LitPicture LitPicture::withoutCache() const
+{
+    LitPicture copy = *this;
+    copy.mCache = QPixmap();
+    return copy;
+}
+
+QVector<qint64> LitPicture::content() const
+{
+    return {mImage.picture.cacheKey(), mStandIn.picture.cacheKey(), mDrawn.image.cacheKey(),
+            mBelow.image.cacheKey(), mAbove.image.cacheKey()};
 }
 
 void LitPicture::draw(QPainter& painter, const PreviewImage& image, const QTransform& canvasToImage,

@@ -20,6 +20,10 @@ public:
     void setStandIn(const PreviewImage& image, const QTransform& canvasToImage);
     /// The unlit layers under and over the lit ones; null images for none.
     void setUnlitLayers(const FrameExport& below, const FrameExport& above);
+    /// The drawing that picture and stand-in were made from; a null image if it is not known.
+    void setDrawn(const FrameExport& drawn) { mDrawn = drawn; }
+    const FrameExport& drawn() const { return mDrawn; }
+    bool knowsDrawing() const { return !isEmpty() && !mDrawn.image.isNull(); }
     void clear();
     bool hasPicture() const { return !mImage.picture.isNull(); }
     bool isEmpty() const { return !hasPicture() && mStandIn.picture.isNull(); }
@@ -31,6 +35,14 @@ public:
     void paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view, double pixelRatio,
                const QColor& paper);
 
+    /// All of it, on its paper, and the same place as drawn. The painter is in widget pixels.
+    void drawLit(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const;
+    void drawPlain(QPainter& painter, const QTransform& canvasToWidget, const QColor& paper) const;
+    /// A copy for another thread, where there are no pixmaps.
+    LitPicture withoutCache() const;
+    /// Equal for pictures with the same pixels.
+    QVector<qint64> content() const;
+
 private:
     void draw(QPainter& painter, const PreviewImage& image, const QTransform& canvasToImage,
               const QTransform& canvasToWidget, const QColor& paper) const;
@@ -39,6 +51,7 @@ private:
     QTransform mCanvasToImage;
     PreviewImage mStandIn;
     QTransform mCanvasToStandIn;
+    FrameExport mDrawn;
     FrameExport mBelow;
     FrameExport mAbove;
 

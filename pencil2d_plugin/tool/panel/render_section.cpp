@@ -17,7 +17,8 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
       mDocument(document), mRender(render), mRange(new QComboBox(this)), mQuality(new QComboBox(this)),
       mHide(new QCheckBox(tr("Hide the sources"), this)),
       mGenerate(new QPushButton(tr("Generate Surfaces"), this)),
-      mRenderAll(new QPushButton(tr("Render All Frames"), this)), mSurfaceBar(new QProgressBar(this)),
+      mRenderAll(new QPushButton(tr("Render All Frames"), this)), mOutdated(new QLabel(this)),
+      mRenderChanged(new QPushButton(tr("Render What Changed"), this)), mSurfaceBar(new QProgressBar(this)),
       mRenderBar(new QProgressBar(this)), mCancel(new QPushButton(tr("Cancel"), this))
 {
     mRange->setObjectName(QStringLiteral("lampblack.panel.range"));
@@ -42,8 +43,12 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     mRenderBar->setObjectName(QStringLiteral("lampblack.panel.render.progress"));
     mRenderBar->setAccessibleName(tr("Rendered frames"));
     mRenderBar->setFormat(tr("%v of %m"));
+    mOutdated->setObjectName(QStringLiteral("lampblack.panel.outdated"));
+    mOutdated->setWordWrap(true);
+    mRenderChanged->setObjectName(QStringLiteral("lampblack.panel.render_changed"));
+    mRenderChanged->setToolTip(tr("Light again only the frames whose drawing or light has changed since."));
     mCancel->setObjectName(QStringLiteral("lampblack.panel.cancel"));
-    for (QPushButton* button : {mGenerate, mRenderAll, mCancel})
+    for (QPushButton* button : {mGenerate, mRenderAll, mRenderChanged, mCancel})
     {
         button->setAutoDefault(false);
         button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -59,10 +64,13 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     body()->addLayout(choices);
     body()->addWidget(mHide);
     body()->addWidget(mRenderAll);
+    body()->addWidget(mOutdated);
+    body()->addWidget(mRenderChanged);
     body()->addWidget(mRenderBar);
     body()->addWidget(mCancel);
     connect(mGenerate, &QPushButton::clicked, this, &RenderSection::generateSurfacesRequested);
     connect(mRenderAll, &QPushButton::clicked, &render, &QAction::trigger);
+    connect(mRenderChanged, &QPushButton::clicked, this, &RenderSection::renderChangedRequested);
     connect(mCancel, &QPushButton::clicked, this, &RenderSection::cancelRequested);
     connect(mRange, qOverload<int>(&QComboBox::currentIndexChanged), this, &RenderSection::updateRenderText);
     connect(mQuality, qOverload<int>(&QComboBox::activated), this,
@@ -73,6 +81,7 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
                 mDocument.edit(tr("Change Quality"), scene);
             });
     connect(&document, &SceneDocument::sceneChanged, this, &RenderSection::refresh);
+    setOutdated(0, 0);
     setSurfaceProgress(0, 0);
     setRenderProgress(0, 0);
     refresh();
@@ -88,6 +97,13 @@ void RenderSection::updateRenderText()
 void RenderSection::refresh()
 {
     mQuality->setCurrentIndex(int(mDocument.scene().quality));
+}
+
+void RenderSection::setOutdated(int outdated, int total)
+{
+    mOutdated->setText(tr("%1 of %2 lit frames are out of date").arg(outdated).arg(total));
+    mOutdated->setVisible(outdated > 0);
+    mRenderChanged->setVisible(outdated > 0);
 }
 
 void RenderSection::setSurfaceProgress(int done, int total)
@@ -109,6 +125,7 @@ void RenderSection::setProgress(QProgressBar* bar, int done, int total)
     mCancel->setVisible(isWorking);
     mGenerate->setEnabled(!isWorking);
     mRenderAll->setEnabled(!isWorking);
+    mRenderChanged->setEnabled(!isWorking);
     mRender.setEnabled(!isWorking);
 }
 

@@ -27,11 +27,15 @@ public:
     void setSurfaceProgress(int done, int total);
     void setRenderProgress(int done, int total);
 
+    /// How many frames of the result layer are out of date, and how many it has.
+    void setOutdated(int outdated, int total);
+
     ShotRange range() const { return static_cast<ShotRange>(mRange->currentIndex()); }
     bool hidesSources() const { return mHide->isChecked(); }
 
 Q_SIGNALS:
     void generateSurfacesRequested();
+    void renderChangedRequested();
     void cancelRequested();
 
 private:
@@ -46,6 +50,8 @@ private:
     QCheckBox* mHide;
     QPushButton* mGenerate;
     QPushButton* mRenderAll;
+    QLabel* mOutdated;
+    QPushButton* mRenderChanged;
     QProgressBar* mSurfaceBar;
     QProgressBar* mRenderBar;
     QPushButton* mCancel;

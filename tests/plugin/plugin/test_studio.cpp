@@ -14,25 +14,6 @@ class StudioPreviewTest : public StudioTest
 {
     Q_OBJECT
 
-private:
-    bool isReady() const { return find<QLabel>("panel.worker")->text() == QStringLiteral("Ready"); }
-    /// The host reads what was asked for of frame 1: it shows `drawing`.
-    void exportAll(const QImage& drawing)
-    {
-        const QStringList layers = mHost->mRequests.last().layers;
-        for (const QStringList& each : {QStringList(layers[0]), QStringList(layers[1]), layers})
-            Q_EMIT mHost->frameExported({1, drawing, {}, each});
-    }
-    /// Use the lamp until the picture of the current frame is shown.
-    void openLit()
-    {
-        mHost->open();
-        QTRY_VERIFY(!mWorker->mPreviews.isEmpty());
-        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(mHost->currentFrame()));
-        QVERIFY(showsPicture());
-        QVERIFY(mStudio->isSettled());
-    }
-
 private Q_SLOTS:
     void lampThatIsNeverPickedCostsNothing()
     {
@@ -112,120 +93,6 @@ private Q_SLOTS:
         QVERIFY2(!showsPicture(), "the picture of the old drawing is not kept");
         Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
         QVERIFY(showsPicture() && mStudio->isSettled());
-    }
-
-    void drawingThatStaysTheSameStaysLit()
-    {
-        // A selection made and lifted, or a project saved under another name.
-        openLit();
-        mHost->mDraw = {};
-        Q_EMIT mHost->drawingChanged(1);
-        QVERIFY2(showsPicture(), "until it is known what the frame shows");
-        QVERIFY(!isReady());
-        exportAll(mWorker->mKnown[1]);
-        QVERIFY(showsPicture() && mStudio->isSettled() && isReady());
-    }
-
-    void layersThatComeAndGoLeaveTheLight()
-    {
-        openLit();
-        mHost->mDraw = {};
-        const QImage drawing = mWorker->mKnown[1];
-        Q_EMIT mHost->layersChanged();
-        QCOMPARE(mWorker->mDropped, 1);
-        QVERIFY(showsPicture() && !isReady());
-        exportAll(drawing);
-        QVERIFY(showsPicture() && mStudio->isSettled());
-    }
-
-    void anotherProjectIsNotShownInTheLightOfTheLast()
-    {
-        openLit();
-        mHost->mDraw = {};
-        Q_EMIT mHost->projectOpened({});
-        QVERIFY(!showsPicture() && !showsStandIn() && !isReady());
-    }
-
-    void pictureThatDoesNotComeIsAskedForAgain()
-    {
-        mHost->open();
-        QTRY_COMPARE(mWorker->mPreviews.size(), 1);
-        QVERIFY(!isReady());
-        const int cancelled = mWorker->mPreviewsCancelled;
-        QTRY_COMPARE(mWorker->mPreviews.size(), 2);
-        QCOMPARE(mWorker->mPreviewsCancelled, cancelled + 1); // so that the second is not taken for the first
-        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
-        QVERIFY(isReady());
-        mHost->goToFrame(2);
-        QVERIFY2(!isReady(), "nothing is Ready while the frame is not lit");
-        QTRY_COMPARE(mWorker->mPreviews.last().frame, 2);
-    }
-
-    void standInFollowsTheLight()
-    {
-        mHost->open();
-        QTRY_VERIFY(showsStandIn());
-        const auto shown = [this]
-        {
-            return qGreen(mHost->mCanvas->grab().toImage().pixel(160, 110));
-        };
-        setPower(0.1);
-        const int before = shown();
-        setPower(0.5);
-        QVERIFY2(shown() > before + 10, "at once");
-    }
-
-    void standInIsOfTheDrawingUnderTheNewScene()
-    {
-        openLit();
-        const auto middle = [this]
-        {
-            return QColor(mHost->mCanvas->grab().toImage().pixel(200, 150));
-        };
-        QCOMPARE(middle(), QColor(Qt::red)); // the picture of the worker
-        mStrokes = 120;
-        draw();
-        QTRY_VERIFY(showsStandIn());
-        QVERIFY(middle().green() > 1.2 * middle().red());
-    }
-
-    void pictureThatDoesNotReachFarEnoughIsContinued()
-    {
-        openLit();
-        PreviewImage part = mWorker->pictureOf(1);
-        part.crop = QRectF(0, 0, 200, 300);
-        Q_EMIT mWorker->imageArrived(part);
-        QVERIFY(showsPicture() && !isReady());
-        const QImage shown = mHost->mCanvas->grab().toImage();
-        QCOMPARE(QColor(shown.pixel(150, 150)), QColor(Qt::red));
-        const QColor drawn(drawing(QColor::fromHsv(0, 101, 200)).pixel(260, 150));
-        QVERIFY(shown.pixel(260, 150) != drawn.rgb());
-        QVERIFY(qRed(shown.pixel(260, 150)) < drawn.red());
-        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(1));
-        QVERIFY(isReady());
-    }
-
-    void emptyPageIsReady()
-    {
-        mHost->mDraw = [](int, const QStringList&)
-        {
-            QImage image(400, 300, QImage::Format_RGBA8888);
-            image.fill(Qt::transparent);
-            return image;
-        };
-        mHost->open();
-        QTRY_COMPARE(mWorker->mPut.size(), 1);
-        QTRY_VERIFY(isReady());
-        QVERIFY(!showsStandIn());
-    }
-
-    void flatViewIsReady()
-    {
-        openLit();
-        find<QAbstractButton>("panel.view.flat")->click();
-        QVERIFY(!showsPicture() && isReady());
-        mHost->goToFrame(2);
-        QVERIFY(isReady());
     }
 
     void drawingThatTheWorkerLacksIsSentAgain()
@@ -378,6 +245,7 @@ private Q_SLOTS:
 
     void leavingTheLampStopsTheWork()
     {
+        setKeepsLight(false);
         openLit();
         const int cancelled = mWorker->mPreviewsCancelled;
         mHost->mTool->setChecked(false);

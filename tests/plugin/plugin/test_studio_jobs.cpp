@@ -3,6 +3,7 @@
 
 #include <QAbstractButton>
 #include <QComboBox>
+#include <QLabel>
 #include <QProgressBar>
 
 using namespace lampblack;
@@ -94,6 +95,61 @@ private Q_SLOTS:
         for (const FakeHost::Request& request : waiting)
             Q_EMIT mHost->frameExported({request.first, drawing(), {}, request.layers});
         QCOMPARE(mWorker->mFrames, QStringLiteral("1-8"));
+    }
+
+    void litFramesThatNoLongerFitAreRenderedAgain()
+    {
+        const auto outdated = [this]
+        {
+            auto* label = find<QLabel>("panel.outdated");
+            return label->isHidden() ? QString() : label->text();
+        };
+        const auto finishJob = [this](const QVector<int>& frames)
+        {
+            mWorker->finishFrames(frames);
+            mWorker->endJob();
+            QTRY_VERIFY(!isWorking());
+        };
+        mHost->open();
+        click("panel.render");
+        finishJob({1, 2, 3, 4, 5, 6, 7, 8});
+        QTest::qWait(150);
+        QCOMPARE(outdated(), QString());
+
+        // A stroke on frame 1, and one that is undone on frame 2.
+        draw();
+        QTRY_COMPARE(outdated(), QStringLiteral("1 of 8 lit frames are out of date"));
+        mHost->goToFrame(2);
+        QTRY_VERIFY(mWorker->mPut.contains(2));
+        Q_EMIT mHost->drawingChanged(2);
+        QTest::qWait(150);
+        QCOMPARE(outdated(), QStringLiteral("1 of 8 lit frames are out of date"));
+        click("panel.render_changed");
+        QTRY_COMPARE(mWorker->mFrames, QStringLiteral("1"));
+        finishJob({1});
+        QTRY_COMPARE(outdated(), QString());
+        QCOMPARE(mHost->mDelivered.size(), 8);
+
+        setPower(2.5);
+        QTRY_COMPARE(outdated(), QStringLiteral("8 of 8 lit frames are out of date"));
+        setPower(1.2);
+        QTRY_COMPARE(outdated(), QString());
+    }
+
+    void artistIsToldWhenTheLayerHidesTheDrawing()
+    {
+        mHost->open();
+        click("panel.render");
+        mWorker->finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        mWorker->endJob();
+        QTRY_VERIFY(!isWorking());
+        mHost->mCurrentLayer = QStringLiteral("Line");
+        mHost->mTool->setChecked(false);
+        QVERIFY(mHost->mStatus.contains(QLatin1String("hides what you draw")));
+        mHost->mStatus.clear();
+        mHost->mLayers.first().visible = false;
+        draw();
+        QVERIFY(!mHost->mStatus.contains(QLatin1String("hides what you draw")));
     }
 
     void surfacesAreMadeOfAllFrames()

@@ -7,6 +7,7 @@
 #include "tool/canvas/canvas_overlay.h"
 
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QPainter>
 #include <QTemporaryDir>
 
@@ -43,9 +44,34 @@ protected:
         }();
         return found;
     }
+    bool isReady() const { return find<QLabel>("panel.worker")->text() == QStringLiteral("Ready"); }
+    /// The host reads what was asked for of frame 1: it shows `drawing`.
+    void exportAll(const QImage& drawing)
+    {
+        const QStringList layers = mHost->mRequests.last().layers;
+        for (const QStringList& each : {QStringList(layers[0]), QStringList(layers[1]), layers})
+            Q_EMIT mHost->frameExported({1, drawing, {}, each});
+    }
+    /// Use the lamp until the picture of the current frame is shown.
+    void openLit()
+    {
+        mHost->open();
+        QTRY_VERIFY(!mWorker->mPreviews.isEmpty());
+        Q_EMIT mWorker->imageArrived(mWorker->pictureOf(mHost->currentFrame()));
+        QVERIFY(showsPicture());
+        QVERIFY(mStudio->isSettled());
+    }
     void setPower(double power) const { find<QDoubleSpinBox>("panel.power.field")->setValue(power); }
     double sentPower() const { return mWorker->mScenes.last().lights.first().power; }
     bool showsPicture() const { return find<CanvasOverlay>("overlay")->showsPicture(); }
+    void setKeepsLight(bool keeps) const
+    {
+        for (QAction* action : mHost->mAnimation)
+        {
+            if (action->objectName() == QLatin1String("lampblack.keep_light"))
+                action->setChecked(keeps);
+        }
+    }
     bool showsStandIn() const { return find<CanvasOverlay>("overlay")->showsStandIn(); }
 
     std::unique_ptr<QTemporaryDir> mFolder;

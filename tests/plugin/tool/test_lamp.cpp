@@ -53,7 +53,7 @@ private Q_SLOTS:
         QVERIFY(!host.mTool->icon().pixmap(24).isNull());
         QCOMPARE(host.mTool->shortcut(), QKeySequence(Qt::Key_L));
         QVERIFY(host.mPanel != nullptr);
-        QCOMPARE(host.mAnimation, QVector<QAction*>{lamp.renderAction()});
+        QCOMPARE(host.mAnimation, (QVector<QAction*>{lamp.renderAction(), lamp.keepAction()}));
     }
 
     void showsThePictureItIsGivenWhileInUse()

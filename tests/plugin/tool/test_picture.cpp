@@ -153,7 +153,7 @@ private Q_SLOTS:
         document.reset(sceneWithLight(-5000, -5000, 200));
         CanvasOverlay overlay(host, document);
         host.open();
-        overlay.setHandlesShown(false);
+        overlay.setPlaying(true);
         overlay.show();
         overlay.updateHandles();
         QCOMPARE(overlay.size(), host.mCanvas->size());
