@@ -1,5 +1,7 @@
 #include "tool/canvas/instant_shading.h"
 
+#include "tool/canvas/instant_tones.h"
+
 #include <QSet>
 #include <QVector3D>
 
@@ -133,8 +135,9 @@ void spread(QVector<float>& values, const InstantShape& shape)
     }
 }
 
-/// Red, green and blue of the light at a place, and how far lines enclose it.
-using Values = std::array<float, 4>;
+/// Red, green and blue of the light at a place, how far lines enclose it, and its amount where there are
+/// tones.
+using Values = std::array<float, 5>;
 
 /// A row of the picture's elements, interpolated between two rows of the grid.
 class Row
@@ -159,7 +162,8 @@ public:
                 return one + place.share * (other - one);
             };
             mValues[x] = {mix(mLight.red[a], mLight.red[b]), mix(mLight.green[a], mLight.green[b]),
-                          mix(mLight.blue[a], mLight.blue[b]), mix(mShape.enclosed[a], mShape.enclosed[b])};
+                          mix(mLight.blue[a], mLight.blue[b]), mix(mShape.enclosed[a], mShape.enclosed[b]),
+                          mLight.amount.isEmpty() ? 0 : mix(mLight.amount[a], mLight.amount[b])};
         }
     }
     bool isOpen(int x) const
@@ -220,6 +224,10 @@ InstantLight lightOn(const InstantShape& shape, const Scene& scene, const QTrans
     InstantLight light;
     for (QVector<float>* channel : {&light.red, &light.green, &light.blue})
         channel->fill(1, shape.count());
+    const InstantTones tones(scene);
+    const QTransform imageToCanvas = canvasToImage.inverted();
+    if (!tones.isEmpty())
+        light.amount.fill(0, shape.count());
     const auto relief = float(scene.reliefScale);
     for (int at = 0; at < shape.count(); ++at)
     {
@@ -238,12 +246,20 @@ InstantLight lightOn(const InstantShape& shape, const Scene& scene, const QTrans
             for (size_t i = 0; i < sum.size(); ++i)
                 sum[i] += share * source.colour[i];
         }
+        if (!tones.isEmpty())
+        {
+            const double direct = std::max({sum[0] - ambient[0], sum[1] - ambient[1], sum[2] - ambient[2]});
+            const QPointF place = imageToCanvas.map(QPointF(point.x(), point.y()));
+            light.amount[at] = float(direct / tones.fullLight(place.x(), place.y()));
+        }
         light.red[at] = multiplier(sum[0]);
         light.green[at] = multiplier(sum[1]);
         light.blue[at] = multiplier(sum[2]);
     }
     for (QVector<float>* channel : {&light.red, &light.green, &light.blue})
         spread(*channel, shape);
+    if (!tones.isEmpty())
+        spread(light.amount, shape);
     return light;
 }
 
@@ -256,6 +272,7 @@ QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const Ins
     QImage picture(size, QImage::Format_RGBA8888_Premultiplied);
     picture.fill(Qt::transparent);
     const QSet<QRgb> unlit = unlitColours(scene);
+    const InstantTones tones(scene);
     Row row(shape, light, size.width(), step);
     for (int y = 0; y < size.height(); ++y)
     {
@@ -270,6 +287,8 @@ QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const Ins
                 continue;
             Values lamp = row.at(x);
             const float enclosed = lamp[3];
+            if (!light.amount.isEmpty())
+                std::copy_n(tones.at(lamp[4]).begin(), 3, lamp.begin());
             const bool isLit = unlit.isEmpty() || !unlit.contains(qRgb(pixel[0], pixel[1], pixel[2]));
             const float part = !isLit ? 0 : (shape.onGround ? enclosed : 1);
             for (size_t i = 0; i < 3; ++i)

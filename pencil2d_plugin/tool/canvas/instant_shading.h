@@ -16,6 +16,7 @@ struct InstantLight
     QVector<float> red; ///< 1 is as drawn, in sRGB values
     QVector<float> green;
     QVector<float> blue;
+    QVector<float> amount; ///< direct light as a share of the full light; only where the look has tones
 };
 
 /// The scene's light on a drawing's shape. `scene` is without keys, `canvasToImage` the camera of the

@@ -174,6 +174,21 @@ private Q_SLOTS:
         QVERIFY(std::abs(zoomed - close) < 0.01 * close);
     }
 
+    void lookWithTonesHasFlatTones()
+    {
+        Scene scene = sceneWithLight(20, 150, 200);
+        scene.lights[0].power = 0.7;
+        scene.look.tones = {0.45};
+        scene.look.softness = 0;
+        const QImage picture = shaded(disc(), scene);
+        QSet<QRgb> tones;
+        for (int x = 90; x < 310; ++x)
+            tones.insert(picture.pixel(x, 150));
+        QVERIFY2(tones.size() <= 4, qPrintable(QString::number(tones.size())));
+        QVERIFY(qRed(picture.pixel(110, 150)) > qRed(picture.pixel(290, 150)) + 20);
+        QCOMPARE(picture.pixel(280, 150), picture.pixel(290, 150));
+    }
+
     void paperAroundTheFigureIsBare()
     {
         const QImage picture = shaded(disc(), dark(20, 150, 200));
