@@ -15,8 +15,9 @@ struct LayerStack
     QStringList below; ///< shown as drawn, under the lit layers
 };
 
-/// Sort the visible layers by the rules of the worker's command line. The result layer is left out. While it
-/// is visible, hidden layers are lit too if they have a role: it was rendered from them.
+/// Sort the visible layers by the rules of the worker's command line. The result layer and painted light are
+/// left out. While the result is visible, hidden layers are lit too if they have a role: it was rendered from
+/// them.
 LayerStack sortLayers(const QVector<Layer>& layers, const LayerRoles& roles);
 
 } // namespace lampblack

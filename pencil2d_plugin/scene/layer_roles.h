@@ -16,11 +16,27 @@ inline QString resultLayer()
     return QStringLiteral("Lit");
 }
 
+/// The layer whose paint is light.
+inline QString lightLayer()
+{
+    return QStringLiteral("Light");
+}
+
+/// Whether the paint of a layer is light: that of one of the right name, unless it has the role of a
+/// character or a line.
+inline bool isLight(const QString& layer, const LayerRoles& roles)
+{
+    const QString background = QStringLiteral("background");
+    return layer == lightLayer() && roles.value(layer, background) == background;
+}
+
 /// The role of a layer that is not of results. Until one is called a character or a line, all are characters;
-/// from then on, a layer without a role is background.
+/// from then on, a layer without a role is background. Painted light is no part of the character.
 inline QString roleOf(const QString& layer, const LayerRoles& roles)
 {
     const QString character = QStringLiteral("character");
+    if (isLight(layer, roles))
+        return QStringLiteral("background");
     const QList<QString> given = roles.values();
     const bool named = given.contains(character) || given.contains(QStringLiteral("line"));
     return roles.value(layer, named ? QStringLiteral("background") : character);

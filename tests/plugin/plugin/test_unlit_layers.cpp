@@ -48,6 +48,15 @@ private Q_SLOTS:
         QCOMPARE(some.below, (QStringList{QStringLiteral("Mist"), QStringLiteral("Hills")}));
     }
 
+    void paintedLightIsNoPartOfThePicture()
+    {
+        const LayerStack stack = sortLayers({layer("Light"), layer("Fox")}, {});
+        QCOMPARE(stack.lit, QStringList{QStringLiteral("Fox")});
+        QVERIFY(stack.above.isEmpty() && stack.below.isEmpty());
+        const LayerRoles drawn = {{QStringLiteral("Light"), QStringLiteral("character")}};
+        QCOMPARE(sortLayers({layer("Light")}, drawn).lit, QStringList{QStringLiteral("Light")});
+    }
+
     void sourcesHiddenBehindTheirResultAreLit()
     {
         const LayerStack stack =
