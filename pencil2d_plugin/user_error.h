@@ -10,9 +10,17 @@ namespace lampblack
 /// What happened, what to do about it, and details worth copying into a report.
 struct UserError
 {
+    enum class Kind
+    {
+        Other,
+        NothingDrawn, ///< over as soon as something is drawn
+        NoWorker      ///< the worker has been given up; it can be started again
+    };
     QString what;
     QString remedy;
     QString details;
+    Kind kind = Kind::Other;
+    int frame = 0; ///< that it is about, if it is about one
 };
 
 } // namespace lampblack

@@ -14,6 +14,7 @@
 #include <QMap>
 #include <QObject>
 #include <QTransform>
+#include <QVariant>
 #include <QVector>
 #include <QWidget>
 
@@ -88,9 +89,16 @@ public:
     /// Show `panel` instead of the tool options while the tool is in use.
     virtual void setToolPanel(QWidget* panel) = 0;
     virtual void addDock(QDockWidget* dock) = 0;
-    /// Add an entry at the end of the Animation menu.
-    virtual void addAnimationAction(QAction* action) = 0;
+    /// Add an entry to a submenu "Light" at the end of the Animation menu.
+    virtual void addLightAction(QAction* action) = 0;
     virtual void showStatus(const QString& text, int milliseconds = 0) = 0;
+    /// Add a widget at the right end of the status bar.
+    virtual void addStatusWidget(QWidget* widget) = 0;
+
+    /// What the artist has set in the user interface, such as an open section: kept between sessions, of all
+    /// projects.
+    virtual QVariant remembered(const QString& key, const QVariant& otherwise) const = 0;
+    virtual void remember(const QString& key, const QVariant& value) = 0;
 
     // View
     /// No value while it is not known.
@@ -123,6 +131,8 @@ public:
     // Project
     virtual QString projectPath() const = 0; ///< absolute; empty while untitled
     virtual bool isModified() const = 0;
+    /// Show in the window's title that the light is not saved. It does not change isModified().
+    virtual void markModified(bool lightModified) = 0;
     /// `mayLeave` is called before New, Open or a recent file replaces the open project. It may ask the
     /// artist; false keeps the project open. It is not called when the window closes: there is QEvent::Close.
     virtual void guardLeaving(const std::function<bool()>& mayLeave) = 0;

@@ -1,6 +1,7 @@
 #include "host/pencil2d_host.h"
 
 #include <QMenu>
+#include <QSettings>
 #include <QStatusBar>
 
 #include <algorithm>
@@ -14,6 +15,12 @@ namespace
 constexpr int SurveyDelayMs = 50;
 constexpr int MaxLayerAttempts = 20; ///< the list needs some time for its layout
 const QSize DefaultCanvas(800, 600);
+
+/// Beside Pencil2D's own, which are left alone.
+QSettings ourSettings()
+{
+    return QSettings(QStringLiteral("Lampblack"), QStringLiteral("Pencil2D"));
+}
 
 bool isStatic(const CameraKeys& keys)
 {
@@ -29,9 +36,10 @@ bool isSame(const Layer& a, const Layer& b)
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
-      mLeaveGuard(parts, nullptr), mRows(parts), mView(parts), mQueue(parts, &mIdleness, nullptr),
-      mDelivery(parts, &mIdleness, nullptr), mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr),
-      mOptions(parts, nullptr), mCanvasSize(DefaultCanvas)
+      mLeaveGuard(parts, nullptr), mTitleMark(parts, nullptr), mPlaces(parts), mRows(parts), mView(parts),
+      mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
+      mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr), mOptions(parts, nullptr),
+      mCanvasSize(DefaultCanvas)
 {
     connect(&mPalette, &ToolPalette::activated, this,
             [this](bool active)
@@ -123,29 +131,20 @@ void Pencil2DHost::setToolPanel(QWidget* panel)
         mOptions.setPanel(panel);
 }
 
-void Pencil2DHost::addDock(QDockWidget* dock)
-{
-    if (mParts.window == nullptr)
-        return;
-    mParts.window->addDockWidget(Qt::RightDockWidgetArea, dock);
-    if (auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuWindows")))
-        menu->addAction(dock->toggleViewAction());
-}
-
-void Pencil2DHost::addAnimationAction(QAction* action)
-{
-    if (mParts.window == nullptr)
-        return;
-    if (auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuAnimation")))
-        menu->addAction(action);
-    else
-        mParts.window->addAction(action);
-}
-
 void Pencil2DHost::showStatus(const QString& text, int milliseconds)
 {
     if (mParts.window != nullptr)
         mParts.window->statusBar()->showMessage(text, milliseconds);
+}
+
+QVariant Pencil2DHost::remembered(const QString& key, const QVariant& otherwise) const
+{
+    return ourSettings().value(key, otherwise);
+}
+
+void Pencil2DHost::remember(const QString& key, const QVariant& value)
+{
+    ourSettings().setValue(key, value);
 }
 
 std::optional<QTransform> Pencil2DHost::canvasToWidget() const

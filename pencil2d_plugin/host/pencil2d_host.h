@@ -8,8 +8,10 @@
 #include "host/leave_guard.h"
 #include "host/options_page.h"
 #include "host/project_watch.h"
+#include "host/title_mark.h"
 #include "host/tool_palette.h"
 #include "host/transport.h"
+#include "host/window_places.h"
 
 namespace lampblack
 {
@@ -29,9 +31,12 @@ public:
     QWidget* canvas() const override { return mParts.canvas; }
     void addTool(QAction* tool) override;
     void setToolPanel(QWidget* panel) override;
-    void addDock(QDockWidget* dock) override;
-    void addAnimationAction(QAction* action) override;
+    void addDock(QDockWidget* dock) override { mPlaces.addDock(dock); }
+    void addLightAction(QAction* action) override { mPlaces.addLightAction(action); }
     void showStatus(const QString& text, int milliseconds) override;
+    void addStatusWidget(QWidget* widget) override { mPlaces.addStatusWidget(widget); }
+    QVariant remembered(const QString& key, const QVariant& otherwise) const override;
+    void remember(const QString& key, const QVariant& value) override;
 
     std::optional<QTransform> canvasToWidget() const override;
     QSize canvasSize() const override { return mCanvasSize; }
@@ -51,6 +56,7 @@ public:
 
     QString projectPath() const override { return mProject.path(); }
     bool isModified() const override { return mProject.isModified(); }
+    void markModified(bool lightModified) override { mTitleMark.setMarked(lightModified); }
     void guardLeaving(const std::function<bool()>& mayLeave) override { mLeaveGuard.setMayLeave(mayLeave); }
     bool openProject(const QString& path) override { return mProject.open(path); }
     bool saveProject() override { return mProject.save(); }
@@ -79,6 +85,8 @@ private:
     Transport mTransport;
     ProjectWatch mProject;
     LeaveGuard mLeaveGuard;
+    TitleMark mTitleMark;
+    WindowPlaces mPlaces;
     LayerRows mRows;
     mutable ViewReader mView;
     FrameQueue mQueue;

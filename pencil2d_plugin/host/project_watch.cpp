@@ -1,5 +1,7 @@
 #include "host/project_watch.h"
 
+#include "host/title_mark.h"
+
 #include <QApplication>
 #include <QEvent>
 #include <QFileInfo>
@@ -21,7 +23,7 @@ QDateTime writtenAt(const QString& path)
 
 QString projectOf(const QString& title)
 {
-    QString path = title;
+    QString path = withoutMark(title);
     path.remove(QStringLiteral("[*]"));
     const QFileInfo file(path);
     const bool known = file.suffix() == QLatin1String("pclx") || file.suffix() == QLatin1String("pcl");

@@ -5,6 +5,8 @@
 #include <QSignalBlocker>
 #include <QSpinBox>
 
+#include <algorithm>
+
 namespace lampblack
 {
 
@@ -77,7 +79,8 @@ FrameRange Transport::loopRange() const
     constexpr int Boxes = 3;
     if (boxes.size() != Boxes || !boxes[1]->isEnabled() || boxes[1]->value() > boxes[2]->value())
         return all;
-    return {boxes[1]->value(), boxes[2]->value()};
+    // The loop may reach beyond the last drawing.
+    return {std::min(boxes[1]->value(), mCount), std::min(boxes[2]->value(), mCount)};
 }
 
 void Transport::setFrameCount(int count)

@@ -23,8 +23,14 @@ void DockRoom::makeRoom()
     auto* window = qobject_cast<QMainWindow*>(mHost.window());
     auto* materials =
         window ? window->findChild<QDockWidget*>(QStringLiteral("lampblack.materials")) : nullptr;
-    if (materials == nullptr || materials->isFloating() || !mBefore.isEmpty() ||
-        materials->height() >= MaterialsHeight)
+    if (materials == nullptr || materials->isHidden() || materials->isFloating() || !mBefore.isEmpty())
+        return;
+    const auto beside = window->tabifiedDockWidgets(materials);
+    for (QDockWidget* dock : beside)
+        if (!dock->visibleRegion().isEmpty())
+            mInFront = dock;
+    materials->raise();
+    if (materials->height() >= MaterialsHeight)
         return;
     for (auto* dock : window->findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
         if (window->dockWidgetArea(dock) == window->dockWidgetArea(materials))
@@ -44,6 +50,9 @@ void DockRoom::restoreHeights()
             heights.append(before.pixels);
         }
     mBefore.clear();
+    if (mInFront)
+        mInFront->raise();
+    mInFront.clear();
     if (window != nullptr && !docks.isEmpty())
         window->resizeDocks(docks, heights, Qt::Vertical);
 }

@@ -1,4 +1,4 @@
-// Makes the materials dock higher while the lamp tool is in use.
+// Brings the materials dock in front, and makes it higher, while the lamp tool is in use.
 #pragma once
 
 #include "host/host.h"
@@ -27,7 +27,8 @@ private:
         int pixels;
     };
     Host& mHost;
-    QList<Height> mBefore; ///< heights of all docks of the area; empty while none is changed
+    QList<Height> mBefore;          ///< heights of all docks of the area; empty while none is changed
+    QPointer<QDockWidget> mInFront; ///< the tab that was in front of the materials; null if none was
 };
 
 } // namespace lampblack

@@ -19,6 +19,8 @@ ProjectScene::ProjectScene(Host& host, SceneDocument& document, const LitLayer& 
             });
     connect(&host, &Host::frameExported, this,
             [this](const FrameExport& frame) { fitToCanvas(frame.image.size()); });
+    connect(&document, &SceneDocument::modifiedChanged, this,
+            [this](bool modified) { mHost.markModified(modified); });
     host.window()->installEventFilter(this);
     host.guardLeaving([this] { return mayLeave(); });
     loadScene(host.projectPath());

@@ -14,7 +14,14 @@ namespace lampblack
 namespace
 {
 constexpr int MaxErrors = 40;
+
+/// The same words as on the button.
+QString surfacesName()
+{
+    return ShotJob::tr("Generating surfaces");
 }
+
+} // namespace
 
 ShotJob::ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, SceneDocument& document,
                  QObject* parent)
@@ -71,8 +78,10 @@ void ShotJob::connectWorker()
             {
                 if (mKind != Kind::Surfaces || !mUnsent.isEmpty())
                     return;
-                Q_EMIT progressChanged(mKind, lit, held, tr("Lighting"));
-                if (lit >= held)
+                // The worker may hold other frames too: those at hand are no part of this job.
+                const int left = held - lit;
+                Q_EMIT progressChanged(mKind, std::max(0, mTotal - left), mTotal, surfacesName());
+                if (left <= 0)
                     finish(tr("%n frame(s) have their surfaces.", nullptr, mTotal));
             });
     connect(&mWorker, &Worker::renderProgress, this,

@@ -183,21 +183,15 @@ void Studio::connectJobs()
     connect(mTool.get(), &LampTool::cancelRequested, mJob.get(), &ShotJob::cancel);
     connect(mJob.get(), &ShotJob::problem, mTool.get(), &LampTool::showProblem);
     connect(mJob.get(), &ShotJob::progressChanged, this,
-            [this](ShotJob::Kind kind, int done, int total, const QString& doing)
+            [this](ShotJob::Kind, int done, int total, const QString& doing)
             {
-                if (kind == ShotJob::Kind::Render)
-                    mTool->setRenderProgress(done, total);
-                else
-                    mTool->setSurfaceProgress(done, total);
-                mHost.showStatus(QStringLiteral("%1: %2 / %3").arg(doing).arg(done).arg(total));
+                mTool->setProgress(doing, done, total);
+                mHost.showStatus(tr("%1: %2 of %3").arg(doing).arg(done).arg(total));
             });
     connect(mJob.get(), &ShotJob::finished, this,
-            [this](ShotJob::Kind kind, const QString& message)
+            [this](ShotJob::Kind, const QString& message)
             {
-                if (kind == ShotJob::Kind::Render)
-                    mTool->setRenderProgress(0, 0);
-                else
-                    mTool->setSurfaceProgress(0, 0);
+                mTool->setProgress(QString(), 0, 0);
                 mHost.showStatus(message, 10000);
                 updateFeed();
             });

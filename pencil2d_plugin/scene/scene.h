@@ -33,6 +33,11 @@ Scene defaultScene(const QSize& canvas);
 /// The nearest scene within the schema's ranges; materials under keys that are no colour are left out.
 Scene clamped(const Scene& scene);
 
+/// Rigs and styles as JSON and back, as for scenes below.
+QJsonObject toJson(const Rig& rig);
+std::optional<Rig> rigFromJson(const QJsonObject& tree, QString* fault = nullptr);
+std::optional<Style> styleFromJson(const QJsonObject& tree, QString* fault = nullptr);
+
 /// The scene as JSON, unknown fields included, defaults spelled out.
 QJsonObject toJson(const Scene& scene);
 

@@ -141,20 +141,48 @@ QJsonObject toShortJson(const Scene& scene)
     return tree;
 }
 
-std::optional<Scene> sceneFromJson(const QJsonObject& tree, QString* fault)
+namespace
+{
+
+template <class Thing> std::optional<Thing> fromJson(const QJsonObject& tree, QString* fault)
 {
     JsonReader reader(tree);
-    Scene scene;
-    describe(reader, scene);
+    Thing thing;
+    describe(reader, thing);
     if (reader.fault().isEmpty())
     {
-        return scene;
+        return thing;
     }
     if (fault != nullptr)
     {
         *fault = reader.fault();
     }
     return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Scene> sceneFromJson(const QJsonObject& tree, QString* fault)
+{
+    return fromJson<Scene>(tree, fault);
+}
+
+QJsonObject toJson(const Rig& rig)
+{
+    JsonWriter writer;
+    Rig copy = rig;
+    describe(writer, copy);
+    return writer.tree();
+}
+
+std::optional<Rig> rigFromJson(const QJsonObject& tree, QString* fault)
+{
+    return fromJson<Rig>(tree, fault);
+}
+
+std::optional<Style> styleFromJson(const QJsonObject& tree, QString* fault)
+{
+    return fromJson<Style>(tree, fault);
 }
 
 } // namespace lampblack

@@ -10,6 +10,7 @@
 #include "tool/depth/cut_menu.h"
 #include "tool/materials/materials_dock.h"
 #include "tool/panel/lamp_panel.h"
+#include "tool/panel/rig_menu.h"
 
 #include <utility>
 
@@ -24,9 +25,11 @@ namespace lampblack
 
 LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mTool(new QAction(this)),
-      mRender(new QAction(this)), mKeep(new QAction(this))
+      mSurfaces(new QAction(this)), mRender(new QAction(this)), mCancel(new QAction(this)),
+      mKeep(new QAction(this))
 {
     initIcons();
+    addActions();
     addTool();
     addPanel();
     addDock();
@@ -39,7 +42,17 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
             {
                 mWasActive = mActive; // another project is drawn in the light only once it was lit
                 updateOverlay();
+                setPalette({}); // its colours were those of the project before
+                settleProblem(UserError::Kind::NothingDrawn);
             });
+    connect(&worker, &Worker::imageArrived, this,
+            [this](const PreviewImage& image)
+            {
+                if (image.frame == mHost.currentFrame())
+                    settleProblem(UserError::Kind::NothingDrawn);
+            });
+    for (const auto signal : {&Host::drawingChanged, &Host::frameChanged})
+        connect(&host, signal, this, [this] { settleProblem(UserError::Kind::NothingDrawn); });
 }
 
 LampTool::~LampTool()
@@ -48,8 +61,39 @@ LampTool::~LampTool()
     delete mOverlay; // deletes the event filters of the canvas too
     delete mMenu;
     delete mCutMenu;
+    delete mProgress;
     delete mMaterials;
     delete mPanel;
+}
+
+void LampTool::addActions()
+{
+    const auto add = [this](QAction* action, const QString& name, const QString& text, const QString& hint)
+    {
+        action->setObjectName(name);
+        action->setText(text);
+        action->setToolTip(hint);
+        mHost.addLightAction(action);
+    };
+    add(mSurfaces, QStringLiteral("lampblack.surfaces"), tr("Generate Surfaces"),
+        tr("Model every frame now, so that scrubbing and playing are lit at once."));
+    add(mRender, QStringLiteral("lampblack.render"), tr("Render All Frames"),
+        tr("Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the "
+           "project"));
+    add(mCancel, QStringLiteral("lampblack.cancel"), tr("Cancel"),
+        tr("Stop generating or rendering. Frames that are done are kept."));
+    mCancel->setEnabled(false);
+    add(mKeep, QStringLiteral("lampblack.keep_light"), tr("Keep the Light While Drawing"),
+        tr("Once the lamp was used, its light stays on the canvas while you draw"));
+    mKeep->setCheckable(true);
+    mKeep->setChecked(true);
+    connect(mKeep, &QAction::toggled, this, &LampTool::updateOverlay);
+    connect(mSurfaces, &QAction::triggered, this, &LampTool::generateSurfacesRequested);
+    connect(mRender, &QAction::triggered, this, &LampTool::renderAllRequested);
+    connect(mCancel, &QAction::triggered, this, &LampTool::cancelRequested);
+    mProgress = new JobProgress(QStringLiteral("lampblack.status"), true);
+    connect(mProgress, &JobProgress::cancelRequested, this, &LampTool::cancelRequested);
+    mHost.addStatusWidget(mProgress);
 }
 
 void LampTool::addTool()
@@ -62,39 +106,27 @@ void LampTool::addTool()
     mTool->setToolTip(tr("<b>Lamp Tool (L)</b><br>Light the drawing"));
     mTool->setStatusTip(
         tr("Drag a light to move it, turn the wheel over it for its height, right-click for more"));
-    mRender->setObjectName(QStringLiteral("lampblack.render"));
-    mRender->setText(tr("Render All Frames"));
-    mRender->setToolTip(tr(
-        "Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the project"));
-    connect(mRender, &QAction::triggered, this, &LampTool::renderAllRequested);
-    mHost.addAnimationAction(mRender);
-    mKeep->setObjectName(QStringLiteral("lampblack.keep_light"));
-    mKeep->setText(tr("Keep the Light While Drawing"));
-    mKeep->setToolTip(tr("Once the lamp was used, its light stays on the canvas while you draw"));
-    mKeep->setCheckable(true);
-    mKeep->setChecked(true);
-    connect(mKeep, &QAction::toggled, this, &LampTool::updateOverlay);
-    mHost.addAnimationAction(mKeep);
     if (mHost.can(Host::Ability::Palette))
     {
         mHost.addTool(mTool);
         return;
     }
-    mHost.addAnimationAction(mTool);
+    mHost.addLightAction(mTool);
     connect(mTool, &QAction::toggled, this, &LampTool::setActive);
 }
 
 void LampTool::addPanel()
 {
-    mPanel = new LampPanel(mHost, mDocument, *mRender);
+    mPanel = new LampPanel(mHost, mDocument, *mSurfaces, *mRender);
     connect(mPanel, &LampPanel::viewModeChanged, this, &LampTool::setViewMode);
-    connect(mPanel->render(), &RenderSection::generateSurfacesRequested, this,
-            &LampTool::generateSurfacesRequested);
     connect(mPanel->render(), &RenderSection::renderChangedRequested, this,
             &LampTool::renderChangedRequested);
-    connect(mPanel->render(), &RenderSection::cancelRequested, this, &LampTool::cancelRequested);
+    connect(mPanel->progress(), &JobProgress::cancelRequested, this, &LampTool::cancelRequested);
     connect(&mWorker, &Worker::stateChanged, mPanel.data(), &LampPanel::setWorkerState);
+    connect(mPanel, &LampPanel::retryRequested, &mWorker, &Worker::start);
     mPanel->setWorkerState(mWorker.state());
+    if (auto* rigs = mPanel->findChild<RigMenu*>())
+        rigs->setFigure([this] { return mColours.drawnBox(); });
     if (mHost.can(Host::Ability::Panel))
     {
         mHost.setToolPanel(mPanel);
@@ -230,6 +262,7 @@ void LampTool::setActive(bool active)
         mKeys->setListening(active);
     updateOverlay();
     updateInput();
+    updateProgress();
     Q_EMIT activeChanged(active);
 }
 
@@ -342,10 +375,16 @@ void LampTool::setPalette(const QVector<Swatch>& swatches)
         mMaterials->setPalette(swatches);
 }
 
-void LampTool::setSurfaceProgress(int done, int total)
+void LampTool::setProgress(const QString& doing, int done, int total)
 {
+    for (QAction* action : {mSurfaces, mRender})
+        action->setEnabled(total == 0);
+    mCancel->setEnabled(total > 0);
     if (mPanel)
-        mPanel->render()->setSurfaceProgress(done, total);
+        mPanel->progress()->setProgress(doing, done, total);
+    if (mProgress)
+        mProgress->setProgress(doing, done, total);
+    updateProgress();
 }
 
 void LampTool::setOutdated(int outdated, int total)
@@ -354,17 +393,28 @@ void LampTool::setOutdated(int outdated, int total)
         mPanel->render()->setOutdated(outdated, total);
 }
 
-void LampTool::setRenderProgress(int done, int total)
+void LampTool::updateProgress()
 {
-    if (mPanel)
-        mPanel->render()->setRenderProgress(done, total);
+    // Cancel must be in sight, but not twice.
+    if (mProgress)
+        mProgress->setVisible(mProgress->isRunning() && !(mPanel && mPanel->isVisible()));
 }
 
 void LampTool::showProblem(const UserError& error)
 {
+    // A blank frame is no problem while another one is looked at.
+    if (error.kind == UserError::Kind::NothingDrawn && error.frame != 0 &&
+        error.frame != mHost.currentFrame())
+        return;
     if (mPanel)
         mPanel->showProblem(error);
     mHost.showStatus(error.what);
+}
+
+void LampTool::settleProblem(UserError::Kind kind)
+{
+    if (mPanel)
+        mPanel->settleProblem(kind);
 }
 
 void LampTool::highlightColourAt(const QPointF& canvas)

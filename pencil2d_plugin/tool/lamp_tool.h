@@ -20,6 +20,7 @@ class CanvasInput;
 class CanvasOverlay;
 class CutEditor;
 class CutMenu;
+class JobProgress;
 class KeyInput;
 class LampMenu;
 class LampPanel;
@@ -78,9 +79,8 @@ public Q_SLOTS:
     /// The flat colours of the current drawing, most used first.
     void setPalette(const QVector<lampblack::Swatch>& swatches);
 
-    /// Frames done of total; 0 of 0 when the work has ended.
-    void setSurfaceProgress(int done, int total);
-    void setRenderProgress(int done, int total);
+    /// Frames done of total, and the name of the work; 0 of 0 when it has ended.
+    void setProgress(const QString& doing, int done, int total);
 
     /// How many frames of the result layer are out of date, and how many it has.
     void setOutdated(int outdated, int total);
@@ -100,11 +100,14 @@ private:
     void setActive(bool active);
     void updateOverlay();
     void addTool();
+    void addActions();
+    void updateProgress();
     void addPanel();
     void addDock();
     void setUpCanvas();
     void setUpCuts();
     QString colourAt(const QPoint& global) const;
+    void settleProblem(UserError::Kind kind);
     void updateInput();
     void highlightColourAt(const QPointF& canvas);
 
@@ -117,10 +120,13 @@ private:
     FrameColours mColours;
     QHash<int, QTransform> mCameras; ///< canvas to image, by frame, if not identity
     QAction* mTool;
+    QAction* mSurfaces;
     QAction* mRender;
+    QAction* mCancel;
     QAction* mKeep; ///< "Keep the Light While Drawing"
     // These belong to the host's window and may be deleted with it.
     QPointer<LampPanel> mPanel;
+    QPointer<JobProgress> mProgress; ///< in the status bar, while the panel is not in sight
     QPointer<MaterialsDock> mMaterials;
     QPointer<CanvasOverlay> mOverlay;
     QPointer<CanvasInput> mInput;

@@ -50,8 +50,7 @@ UserError notInstalled(const Interpreter& interpreter, const QString& details)
 {
     return {QCoreApplication::translate("lampblack", "Lampblack's worker is not installed."),
             QCoreApplication::translate(
-                "lampblack",
-                "Open a terminal in Lampblack's folder, type: make install, then start Pencil2D again."),
+                "lampblack", "Open a terminal in Lampblack's folder and type: make install. Then try again."),
             QStringLiteral("Python: %1 (named by %2)\n%3")
                 .arg(interpreter.path.isEmpty() ? QStringLiteral("none") : interpreter.path,
                      interpreter.source, details)};

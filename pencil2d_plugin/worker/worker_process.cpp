@@ -106,9 +106,10 @@ void WorkerProcess::restart(const QString& reason)
     }
 }
 
-void WorkerProcess::giveUp(const UserError& error)
+void WorkerProcess::giveUp(UserError error)
 {
     stop();
+    error.kind = UserError::Kind::NoWorker;
     Q_EMIT gaveUp(error);
 }
 
@@ -124,8 +125,7 @@ void WorkerProcess::launch()
     if (!mFolder->isValid())
     {
         giveUp({tr("Lampblack's worker could not be started."),
-                tr("Make room in %1, then start Pencil2D again.").arg(QDir::tempPath()),
-                mFolder->errorString()});
+                tr("Make room in %1, then try again.").arg(QDir::tempPath()), mFolder->errorString()});
         return;
     }
     mStderrTail.clear();

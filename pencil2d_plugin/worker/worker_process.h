@@ -33,8 +33,8 @@ public:
     void stop();
     /// End a process that is of no more use, and start another. `reason` is for the details of an error.
     void restart(const QString& reason);
-    /// End the process, start no other, and emit gaveUp().
-    void giveUp(const UserError& error);
+    /// End the process, start no other, and emit gaveUp(). start() tries again.
+    void giveUp(UserError error);
 
     qint64 pid() const { return mProcess == nullptr ? 0 : mProcess->processId(); }
     /// The end of what it wrote to stderr, at most 4 kB.

@@ -156,6 +156,12 @@ void WorkerSession::handle(const protocol::Error& error)
     {
         mJobs.endRequest(*error.request, protocol::Outcome::Failed);
     }
+    if (error.code == QLatin1String("nothing_drawn"))
+    {
+        Q_EMIT problem({tr("Nothing is drawn here yet."), tr("Draw something: it will be lit."), details,
+                        UserError::Kind::NothingDrawn, error.frame ? static_cast<int>(*error.frame) : 0});
+        return;
+    }
     Q_EMIT problem({error.what, error.remedy, details});
     if (error.fatal)
     {

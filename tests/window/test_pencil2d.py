@@ -201,11 +201,9 @@ def test_surfaces_of_all_frames_play_lit(display: Display, tmp_path: Path, own_c
 def play_lit(window: Pencil2D) -> None:
     light_up(window)
     window.trigger("lampblack.panel.generate")
-    wait_until(lambda: window.value("lampblack.panel.generate.progress", "visible"), "progress")
+    wait_until(lambda: window.value("lampblack.panel.progress", "visible"), "progress")
     keep(window, "generating")
-    wait_until(
-        lambda: not window.value("lampblack.panel.generate.progress", "visible"), "surfaces", 240
-    )
+    wait_until(lambda: not window.value("lampblack.panel.progress", "visible"), "surfaces", 240)
     # Seen once, a frame's picture is kept.
     for _ in range(15):
         settled(window)

@@ -145,7 +145,7 @@ def test_playing_while_surfaces_are_made_and_after(window: Pencil2D, plain: floa
     with staying_lit(window, plain):
         with busy_machine():
             play(window, 3)
-        bar = "lampblack.panel.generate.progress"
+        bar = "lampblack.panel.progress"
         wait_until(lambda: not window.value(bar, "visible"), "all surfaces", 240)
         with busy_machine():
             play(window, 3)

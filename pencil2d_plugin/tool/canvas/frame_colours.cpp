@@ -3,6 +3,8 @@
 #include <QColor>
 #include <QtMath>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace lampblack
@@ -78,6 +80,30 @@ QString FrameColours::at(const QPointF& canvas) const
         }
     }
     return QColor(best).name();
+}
+
+QRectF FrameColours::drawnBox() const
+{
+    const QImage& image = mFrame.image;
+    QRect box;
+    for (int row = 0; row < image.height(); ++row)
+    {
+        const auto* line = reinterpret_cast<const QRgb*>(image.constScanLine(row));
+        const auto isDrawn = [](QRgb pixel)
+        {
+            return qAlpha(pixel) >= MinAlpha; // alpha is the last byte of RGBA8888 too
+        };
+        const auto* end = line + image.width();
+        const auto* first = std::find_if(line, end, isDrawn);
+        if (first == end)
+            continue;
+        const auto* last =
+            std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(first), isDrawn).base();
+        box |= QRect(QPoint(int(first - line), row), QPoint(int(last - line) - 1, row));
+    }
+    if (box == image.rect())
+        return {};
+    return mFrame.canvasToImage.inverted().mapRect(QRectF(box));
 }
 
 } // namespace lampblack

@@ -20,6 +20,9 @@ public:
     /// and between colours it is the nearest swatch.
     QString at(const QPointF& canvas) const;
 
+    /// Around all that is drawn, canvas pixels; empty if that is everything, as on painted paper, or nothing.
+    QRectF drawnBox() const;
+
 private:
     FrameExport mFrame;
     QVector<QRgb> mSwatches;

@@ -96,11 +96,12 @@ bool KeyInput::isOurs(const QKeyEvent& key) const
     if (key.key() == Qt::Key_Escape)
         return mInput.isDragging() || mInput.isPicking() || (editsCuts() && mCuts->isDrawing()) ||
                (usesBrush() && mBrush->isDrawing());
+    const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::KeypadModifier;
+    // Our fields take numbers only, so the key is free wherever no text is written.
+    if (key.key() == CompareKey && modifiers == Qt::NoModifier)
+        return !isOtherText && (focus == nullptr || focus->window() == mHost.window());
     if (!focusIsOnCanvas())
         return false;
-    const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::KeypadModifier;
-    if (key.key() == CompareKey && modifiers == Qt::NoModifier)
-        return true;
     if (usesBrush())
         return isDelete(key.key()) && modifiers == Qt::NoModifier && mBrush->hovered() >= 0;
     if (editsCuts())

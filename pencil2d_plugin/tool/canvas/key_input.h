@@ -14,11 +14,10 @@
 namespace lampblack
 {
 
-/// Undo and redo change the scene first, wherever the focus is. With the focus on the canvas, arrow keys
-/// nudge the selected light, Delete removes it, Escape cancels a drag, and holding D shows the drawing as
-/// drawn. While cuts are edited or the brush is
-/// used, Delete removes the correction under the pointer instead. It is an event
-/// filter of the application while it listens.
+/// Undo and redo change the scene first, wherever the focus is. Holding D shows the drawing as drawn, unless
+/// the focus is where text is written. With the focus on the canvas, arrow keys nudge the selected light,
+/// Delete removes it, and Escape cancels a drag. While cuts are edited or the brush is used, Delete removes
+/// the correction under the pointer instead. It is an event filter of the application while it listens.
 class KeyInput : public QObject
 {
     Q_OBJECT

@@ -10,7 +10,7 @@ namespace lampblack
 namespace
 {
 constexpr int MaxOtherRows = 256; // rows; the scene may hold thousands
-constexpr int MinLines = 8;       // of text, so that a few colours are visible
+constexpr int MinLines = 4;       // of text, so that a colour is visible
 } // namespace
 
 MaterialsDock::MaterialsDock(SceneDocument& document)
@@ -115,7 +115,10 @@ void MaterialsDock::refresh()
     if (otherColours() != mOtherColours)
         updateRows();
     for (SwatchRow* each : qAsConst(mRows))
+    {
         each->setMaterial(materialOf(mDocument.scene(), each->colour()));
+        each->setCorrection(correctionOf(mDocument.scene(), each->colour()));
+    }
 }
 
 QVector<QString> MaterialsDock::otherColours() const
@@ -161,7 +164,12 @@ SwatchRow* MaterialsDock::rowFor(const QString& colour)
     {
         found = new SwatchRow(colour, mColumnWidth, mScroll->widget());
         found->setMaterial(materialOf(mDocument.scene(), colour));
+        found->setCorrection(correctionOf(mDocument.scene(), colour));
         found->setHighlighted(colour == mHighlighted);
+        connect(
+            found, &SwatchRow::corrected, this,
+            [this](const DepthColour& correction, int gesture)
+            { mDocument.edit(tr("Change Volume"), withCorrection(mDocument.scene(), correction), gesture); });
         connect(found, &SwatchRow::edited, this,
                 [this](const QString& edited, const Material& material, int gesture) {
                     mDocument.edit(tr("Change Material"), withMaterial(mDocument.scene(), edited, material),

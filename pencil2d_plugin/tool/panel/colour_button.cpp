@@ -2,8 +2,11 @@
 
 #include "tool/gesture.h"
 
+#include <QMainWindow>
 #include <QPainter>
 #include <QStyleOptionToolButton>
+
+#include <limits>
 
 namespace lampblack
 {
@@ -47,7 +50,35 @@ void ColourButton::openDialog()
     };
     connect(mDialog, &QColorDialog::currentColorChanged, this, applyColour);
     connect(mDialog, &QColorDialog::rejected, this, [applyColour, before] { applyColour(before); });
+    mDialog->adjustSize();
+    mDialog->move(placeBeside(mDialog->size(), *this));
     mDialog->show();
+}
+
+QPoint placeBeside(const QSize& size, const QWidget& widget)
+{
+    const auto* window = qobject_cast<const QMainWindow*>(widget.window());
+    if (window == nullptr || window->centralWidget() == nullptr)
+        return widget.mapToGlobal(QPoint(0, widget.height()));
+    const QWidget& canvas = *window->centralWidget();
+    const QRect covered(canvas.mapToGlobal(QPoint()), canvas.size());
+    const QRect room = QRect(window->mapToGlobal(QPoint()), window->size());
+    QPoint best;
+    int least = std::numeric_limits<int>::max();
+    for (const int x : {room.right() - size.width(), room.left()})
+    {
+        for (const int y : {room.bottom() - size.height(), room.top()})
+        {
+            const QRect overlap = QRect(QPoint(x, y), size) & covered;
+            const int pixels = overlap.width() * overlap.height();
+            if (pixels < least)
+            {
+                least = pixels;
+                best = QPoint(x, y);
+            }
+        }
+    }
+    return best;
 }
 
 void ColourButton::paintEvent(QPaintEvent*)

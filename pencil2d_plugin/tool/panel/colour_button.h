@@ -34,4 +34,8 @@ private:
     QPointer<QColorDialog> mDialog;
 };
 
+/// The corner of the window around `widget` where a dialog of `size` hides the least of the canvas: its top
+/// left point, on the screen.
+QPoint placeBeside(const QSize& size, const QWidget& widget);
+
 } // namespace lampblack

@@ -11,7 +11,13 @@ namespace lampblack
 
 namespace
 {
-constexpr double Far = 1e5;
+constexpr double MaxAmbient = 5;
+
+/// From above the canvas to below it.
+SliderScale floorScale(double height)
+{
+    return {-height, 2 * height, height, 0, false, 0};
+}
 
 /// A floor near the lower edge, where feet usually are.
 Floor firstFloor(const Scene& scene)
@@ -34,7 +40,7 @@ AmbientSection::AmbientSection(SceneDocument& document, QWidget* parent)
     colourRow->addStretch(1);
     colourRow->addWidget(mColour);
     mStrength = new ValueRow(QStringLiteral("lampblack.panel.ambient"), tr("Strength"),
-                             {0, 100, 2, 2, false, 2}, this);
+                             {0, MaxAmbient, 2, 2, false, 2}, this);
     mStrength->setHint(tr("Light from everywhere. It fills the shadows; 1 alone shows the drawn colours."));
     body()->addLayout(colourRow);
     body()->addWidget(mStrength);
@@ -101,7 +107,7 @@ FloorSection::FloorSection(Host& host, SceneDocument& document, QWidget* parent)
 {
     mOn->setObjectName(QStringLiteral("lampblack.panel.floor"));
     mPosition = new ValueRow(QStringLiteral("lampblack.panel.floor.position"), tr("Position"),
-                             {-Far, Far, 1, 0, false, 0}, this);
+                             floorScale(document.scene().canvas.height), this);
     mPosition->setHint(tr("Where the floor meets the paper, from the top edge."));
     mPitch = new ValueRow(QStringLiteral("lampblack.panel.floor.pitch"), tr("Pitch"),
                           {5, 85, 85, 0, false, 0}, this);
@@ -143,7 +149,7 @@ void FloorSection::refresh()
     mOn->setChecked(scene.floor.has_value());
     mPosition->setEnabled(scene.floor.has_value());
     mPitch->setEnabled(scene.floor.has_value());
-    mPosition->setScale({-Far, Far, double(scene.canvas.height), 0, false, 0});
+    mPosition->setScale(floorScale(scene.canvas.height));
     mKeys->setEnabled(scene.floor.has_value());
     mKeys->setKeys(scene.floor ? keyFrames(*scene.floor) : QVector<int>());
     const Floor floor = floorAt(scene.floor.value_or(firstFloor(scene)), mHost.currentFrame());

@@ -3,6 +3,7 @@
 #include "tool/panel/environment_section.h"
 #include "tool/panel/layers_section.h"
 #include "tool/panel/lights_section.h"
+#include "tool/panel/look_section.h"
 
 #include <QHBoxLayout>
 #include <QScrollBar>
@@ -33,9 +34,10 @@ std::optional<Show> modeOf(int button)
 
 } // namespace
 
-LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
+LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAction& render)
     : mViews(new QButtonGroup(this)), mDepthHelp(new QLabel), mProblem(new ProblemCard),
-      mRender(new RenderSection(document, render)), mWorkerLine(new WorkerLine)
+      mRender(new RenderSection(document, surfaces, render)), mWorkerLine(new WorkerLine),
+      mProgress(new JobProgress(QStringLiteral("lampblack.panel"), false)), mHeader(new QWidget(this))
 {
     setObjectName(QStringLiteral("lampblack.panel"));
     setFrameShape(QFrame::NoFrame);
@@ -56,9 +58,7 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
                            "Click a line: the other side comes in front. Right-click: more.\n"
                            "Drag: draw a line that is missing."));
     mDepthHelp->setWordWrap(true);
-    column->addWidget(viewSwitch());
     column->addWidget(mDepthHelp);
-    column->addWidget(mWorkerLine);
     if (!host.can(Host::Ability::View))
     {
         auto* blind = new QLabel(host.whyNot(Host::Ability::View));
@@ -66,7 +66,10 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
         blind->setWordWrap(true);
         column->addWidget(blind);
     }
-    column->addWidget(new LightsSection(host, document));
+    auto* lights = new LightsSection(host, document);
+    connect(lights, &LightsSection::problem, this, &LampPanel::showProblem);
+    column->addWidget(lights);
+    column->addWidget(new LookSection(document));
     column->addWidget(new AmbientSection(document));
     column->addWidget(new SurfaceSection(document));
     column->addWidget(new FloorSection(host, document));
@@ -74,6 +77,53 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& render)
     column->addWidget(mRender);
     column->addStretch(1);
     setWidget(content);
+    addHeader(small);
+    restoreSections(host);
+    connect(mProblem, &ProblemCard::retryRequested, this, &LampPanel::retryRequested);
+}
+
+void LampPanel::addHeader(const QFont& font)
+{
+    mHeader->setFont(font);
+    auto* column = new QVBoxLayout(mHeader);
+    column->setContentsMargins(3, 3, 3, 0);
+    column->setSpacing(2);
+    column->addWidget(viewSwitch());
+    column->addWidget(mWorkerLine);
+    column->addWidget(mProgress);
+    mHeader->installEventFilter(this);
+    placeHeader();
+}
+
+void LampPanel::placeHeader()
+{
+    const int height = mHeader->sizeHint().height();
+    setViewportMargins(0, height, 0, 0);
+    mHeader->setGeometry(0, 0, viewport()->width(), height);
+}
+
+void LampPanel::restoreSections(Host& host)
+{
+    const auto sections = findChildren<Section*>();
+    for (Section* section : sections)
+    {
+        const QString key = section->name();
+        section->setOpen(host.remembered(key, section->isOpen()).toBool());
+        connect(section, &Section::toggled, this, [&host, key](bool open) { host.remember(key, open); });
+    }
+}
+
+bool LampPanel::eventFilter(QObject* watched, QEvent* event)
+{
+    if (watched == mHeader && event->type() == QEvent::LayoutRequest)
+        placeHeader();
+    return QScrollArea::eventFilter(watched, event);
+}
+
+void LampPanel::resizeEvent(QResizeEvent* event)
+{
+    QScrollArea::resizeEvent(event);
+    placeHeader();
 }
 
 QWidget* LampPanel::viewSwitch()
@@ -119,6 +169,13 @@ void LampPanel::setViewMode(std::optional<Show> mode)
     mDepthHelp->setVisible(mode == Show::Relief);
 }
 
+void LampPanel::setWorkerState(Worker::State state)
+{
+    mWorkerLine->setState(state);
+    if (state == Worker::State::Ready || state == Worker::State::Busy)
+        mProblem->settle(UserError::Kind::NoWorker);
+}
+
 void LampPanel::showProblem(const UserError& error)
 {
     mProblem->showError(error);
@@ -136,13 +193,14 @@ void LampPanel::showEvent(QShowEvent* event)
 void LampPanel::hideEvent(QHideEvent* event)
 {
     QScrollArea::hideEvent(event);
+    // Later, because docks may move, and this one is just being changed.
     if (!event->spontaneous())
-        mHeight.giveBack();
+        QTimer::singleShot(0, &mHeight, &BorrowedHeight::giveBack);
 }
 
 QSize LampPanel::sizeHint() const
 {
-    return {210, widget()->sizeHint().height()};
+    return {210, mHeader->sizeHint().height() + widget()->sizeHint().height()};
 }
 
 } // namespace lampblack

@@ -1,6 +1,7 @@
 #include "tool/panel/layers_section.h"
 
 #include "scene/layer_roles.h"
+#include "tool/panel/elided_label.h"
 #include "tool/panel/ignore_wheel.h"
 
 #include <QComboBox>
@@ -76,11 +77,8 @@ void LayersSection::refresh()
 
 QWidget* LayersSection::nameLabel(const QString& layer)
 {
-    auto* name = new QLabel(mRows);
-    name->setTextFormat(Qt::PlainText);
-    name->setText(layer);
-    name->setToolTip(layer);
-    name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    auto* name = new ElidedLabel(layer, mRows);
+    name->setObjectName(QStringLiteral("lampblack.panel.layer_name.") + layer);
     return name;
 }
 

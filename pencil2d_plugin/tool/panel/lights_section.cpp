@@ -2,118 +2,33 @@
 
 #include "scene/timeline.h"
 #include "tool/canvas/key_input.h"
-#include "tool/canvas/lamp_menu.h"
+#include "tool/panel/light_numbers.h"
+#include "tool/panel/rig_menu.h"
 
 #include <QHBoxLayout>
-
-#include <cmath>
 
 namespace lampblack
 {
 
 namespace
 {
-
-constexpr double Far = 1e5; // the schema's limit of coordinates
-constexpr int DiscSide = 16;
-
-SliderScale heightScale(double unit)
-{
-    return {-Far, Far, 2 * unit, 2, true, 0};
-}
-
-SliderScale sizeScale(double unit)
-{
-    return {1, Far, 2 * unit, 2, false, 0};
-}
-
-} // namespace
-
-QToolButton* smallButton(const QString& name, const QString& text, const QString& hint, QWidget* parent)
-{
-    auto* button = new QToolButton(parent);
-    button->setObjectName(name);
-    button->setText(text);
-    button->setToolTip(hint);
-    button->setAccessibleName(hint);
-    button->setAutoRaise(true);
-    button->setFocusPolicy(Qt::StrongFocus);
-    return button;
+constexpr double CopyDistance = 0.08; // of half the canvas's long side
 }
 
 LightsSection::LightsSection(Host& host, SceneDocument& document, QWidget* parent)
     : Section(QStringLiteral("lampblack.panel.lights"), tr("Lights"), true, parent), mHost(host),
-      mDocument(document), mChoice(new QButtonGroup(this))
+      mDocument(document)
 {
-    auto* row = new QHBoxLayout;
-    row->setSpacing(2);
+    auto* list = new QVBoxLayout;
+    list->setSpacing(0);
+    body()->addLayout(list);
     for (int light = 0; light < MaxLights; ++light)
     {
-        QToolButton* button = smallButton(QStringLiteral("lampblack.panel.light.%1").arg(light + 1),
-                                          QString(), tr("Light %1").arg(light + 1), this);
-        button->setCheckable(true);
-        button->setIconSize(QSize(DiscSide, DiscSide));
-        mChoice->addButton(button, light);
-        mLights[size_t(light)] = button;
-        row->addWidget(button);
-        connect(button, &QToolButton::clicked, this, [this, light] { mDocument.selectLight(light); });
+        addRow(light);
+        list->addWidget(mRows[size_t(light)]);
     }
-    mChoice->setExclusive(false);
-    mAdd = smallButton(QStringLiteral("lampblack.panel.light.add"), QStringLiteral("+"), tr("Add a light"),
-                       this);
-    mDelete = smallButton(QStringLiteral("lampblack.panel.light.delete"), QStringLiteral("−"),
-                          tr("Delete the selected light"), this);
-    row->addStretch(1);
-    row->addWidget(mAdd);
-    row->addWidget(mDelete);
-    connect(mAdd, &QToolButton::clicked, this, &LightsSection::addLight);
-    connect(mDelete, &QToolButton::clicked, this, &LightsSection::deleteLight);
-    body()->addLayout(row);
-
-    mNumbers = new QWidget(this);
-    auto* numbers = new QVBoxLayout(mNumbers);
-    numbers->setContentsMargins(0, 0, 0, 0);
-    numbers->setSpacing(3);
-    const double unit = defaultHeight(mDocument.scene().canvas);
-    auto* colourRow = new QHBoxLayout;
-    mColour = new ColourButton(QStringLiteral("lampblack.panel.colour"), tr("Colour of the light"), mNumbers);
-    auto* colourLabel = new QLabel(tr("Colour"), mNumbers);
-    colourRow->addWidget(colourLabel);
-    colourRow->addStretch(1);
-    colourRow->addWidget(mColour);
-    mPower = new ValueRow(QStringLiteral("lampblack.panel.power"), tr("Power"), {0, 100, 10, 4, false, 2},
-                          mNumbers);
-    mPower->setHint(tr("1 lights what faces it, from the usual height, to its drawn colour."));
-    mSize = new ValueRow(QStringLiteral("lampblack.panel.size"), tr("Size"), sizeScale(unit), mNumbers);
-    mSize->setHint(tr("Diameter. A large light makes soft shadows."));
-    mHeight =
-        new ValueRow(QStringLiteral("lampblack.panel.height"), tr("Height"), heightScale(unit), mNumbers);
-    mHeight->setHint(tr("Above the paper; below 0 the light stands behind it and draws a rim."));
-    numbers->addLayout(colourRow);
-    numbers->addWidget(mPower);
-    numbers->addWidget(mSize);
-    numbers->addWidget(mHeight);
-    mKeys = new KeysRow(QStringLiteral("lampblack.panel.keys"), host, mNumbers);
-    numbers->addWidget(mKeys);
-    body()->addWidget(mNumbers);
-
-    connect(mColour, &ColourButton::edited, this,
-            [this](const QColor& colour, int gesture) {
-                changeLight(tr("Change Light Colour"), gesture,
-                            [&](AreaLight& light) { light.colour = colour; });
-            });
-    connect(
-        mPower, &ValueRow::edited, this,
-        [this](double value, int gesture)
-        { changeLight(tr("Change Light Power"), gesture, [&](AreaLight& light) { light.power = value; }); });
-    connect(mSize, &ValueRow::edited, this,
-            [this](double value, int gesture) {
-                changeLight(tr("Change Light Size"), gesture, [&](AreaLight& light) { light.size = value; });
-            });
-    connect(mHeight, &ValueRow::edited, this,
-            [this](double value, int gesture)
-            { changeLight(tr("Change Light Height"), gesture, [&](AreaLight& light) { light.z = value; }); });
-    connect(mKeys, &KeysRow::keyToggled, this, &LightsSection::toggleKey);
+    addButtons();
+    body()->addWidget(new LightNumbers(host, document, this));
     connect(&host, &Host::frameChanged, this,
             [this]
             {
@@ -125,36 +40,82 @@ LightsSection::LightsSection(Host& host, SceneDocument& document, QWidget* paren
     refresh();
 }
 
+void LightsSection::addRow(int light)
+{
+    auto* row = new LightRow(light + 1, this);
+    mRows[size_t(light)] = row;
+    connect(row, &LightRow::selected, this,
+            [this, light]
+            {
+                mDocument.selectLight(light);
+                refresh(); // the click has toggled its button
+            });
+    connect(row, &LightRow::renamed, this,
+            [this, light](const QString& name)
+            { changeLight(light, tr("Name Light"), [&](AreaLight& each) { each.name = name; }); });
+    connect(row, &LightRow::switched, this,
+            [this, light](bool on)
+            {
+                changeLight(light, on ? tr("Switch Light On") : tr("Switch Light Off"),
+                            [&](AreaLight& each) { each.on = on; });
+            });
+    connect(row, &LightRow::soloed, this,
+            [this, light](bool solo)
+            {
+                changeLight(light, solo ? tr("Solo Light") : tr("End Solo"),
+                            [&](AreaLight& each) { each.solo = solo; });
+            });
+}
+
+void LightsSection::addButtons()
+{
+    const auto add = [this](const char* name, const QString& text, const QString& hint)
+    {
+        return smallButton(QStringLiteral("lampblack.panel.light.") + QLatin1String(name), text, hint, this);
+    };
+    mAdd = add("add", tr("Add"), tr("Add a light"));
+    mDuplicate = add("duplicate", tr("Duplicate"), tr("A second light like the selected one"));
+    mDelete = add("delete", tr("Delete"), tr("Delete the selected light"));
+    mRigs =
+        add("rigs", tr("Sets"),
+            tr("Sets of lights that are ready to use; save these lights, or copy them to another project"));
+    auto* rigs = new RigMenu(mHost, mDocument, this);
+    connect(rigs, &RigMenu::problem, this, &LightsSection::problem);
+    mRigs->setMenu(rigs);
+    mRigs->setPopupMode(QToolButton::InstantPopup);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(0);
+    for (QToolButton* button : {mAdd, mDuplicate, mDelete, mRigs})
+    {
+        // Widths are proportional to the lengths of the words, and fill the panel.
+        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+        row->addWidget(button, int(button->text().size()) + 2);
+    }
+    body()->addLayout(row);
+    connect(mAdd, &QToolButton::clicked, this, &LightsSection::addLight);
+    connect(mDuplicate, &QToolButton::clicked, this, &LightsSection::duplicateLight);
+    connect(
+        mDelete, &QToolButton::clicked, this,
+        [this]
+        { mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), mDocument.selectedLight())); });
+}
+
 void LightsSection::refresh()
 {
     const Scene scene = sceneAt(mDocument.scene(), mHost.currentFrame());
     const int selected = mDocument.selectedLight();
     for (int light = 0; light < MaxLights; ++light)
     {
-        QToolButton* button = mLights[size_t(light)];
-        button->setVisible(light < scene.lights.size());
-        button->setChecked(light == selected);
-        // Only if it changes, because Qt keeps the pixmap of every icon that it has painted.
-        if (light < scene.lights.size() && mDiscs[size_t(light)] != scene.lights[light].colour)
-        {
-            mDiscs[size_t(light)] = scene.lights[light].colour;
-            button->setIcon(colourIcon(scene.lights[light].colour, DiscSide, devicePixelRatioF()));
-        }
+        LightRow* row = mRows[size_t(light)];
+        row->setVisible(light < scene.lights.size());
+        if (light < scene.lights.size())
+            row->setLight(scene.lights[light], light == selected);
     }
-    mAdd->setEnabled(scene.lights.size() < MaxLights);
+    const bool hasRoom = scene.lights.size() < MaxLights;
     const bool hasLight = selected >= 0 && selected < scene.lights.size();
+    mAdd->setEnabled(hasRoom);
+    mDuplicate->setEnabled(hasRoom && hasLight);
     mDelete->setEnabled(hasLight);
-    mNumbers->setEnabled(hasLight);
-    if (!hasLight)
-        return;
-    const AreaLight& light = scene.lights[selected];
-    mColour->setColour(light.colour);
-    mSize->setScale(sizeScale(defaultHeight(scene.canvas)));
-    mHeight->setScale(heightScale(defaultHeight(scene.canvas)));
-    mPower->setValue(light.power);
-    mSize->setValue(light.size);
-    mHeight->setValue(light.z);
-    mKeys->setKeys(keyFrames(mDocument.scene().lights[selected]));
 }
 
 void LightsSection::addLight()
@@ -162,46 +123,51 @@ void LightsSection::addLight()
     Scene scene = mDocument.scene();
     if (scene.lights.size() >= MaxLights)
         return;
-    // Each light starts at another corner, so that none hides another.
-    const int corner = scene.lights.size();
-    const double x = scene.canvas.width * (corner % 2 ? 0.75 : 0.25);
-    const double y = scene.canvas.height * (corner / 2 ? 0.75 : 0.2);
+    // Each light starts at another place, so that none hides another.
+    const int place = scene.lights.size();
+    const double x = scene.canvas.width * (place % 2 ? 0.75 : 0.25);
+    const double y = scene.canvas.height * (0.2 + 0.2 * (place / 2));
     scene.lights << defaultLight(scene.canvas, x, y);
     mDocument.edit(tr("Add Light"), scene);
     mDocument.selectLight(mDocument.scene().lights.size() - 1);
 }
 
-void LightsSection::deleteLight()
+void LightsSection::duplicateLight()
 {
-    mDocument.edit(tr("Delete Light"), withoutLight(mDocument.scene(), mDocument.selectedLight()));
+    const int selected = mDocument.selectedLight();
+    const int before = mDocument.scene().lights.size();
+    mDocument.edit(tr("Duplicate Light"), withCopy(mDocument.scene(), selected));
+    if (mDocument.scene().lights.size() > before)
+        mDocument.selectLight(selected + 1);
 }
 
-void LightsSection::changeLight(const QString& text, int gesture,
-                                const std::function<void(AreaLight&)>& apply)
+void LightsSection::changeLight(int light, const QString& text, const std::function<void(AreaLight&)>& apply)
 {
     Scene scene = mDocument.scene();
-    const int selected = mDocument.selectedLight();
-    if (selected < 0 || selected >= scene.lights.size())
+    if (light >= scene.lights.size())
         return;
-    AreaLight& light = scene.lights[selected];
-    const int frame = mHost.currentFrame();
-    AreaLight shown = lightAt(light, frame);
-    apply(shown);
-    light = changedAt(light, frame, shown);
-    mDocument.edit(text, scene, gesture);
+    apply(scene.lights[light]);
+    mDocument.edit(text, scene);
+    refresh(); // a button that was clicked shows the scene, also if nothing has changed
 }
 
-void LightsSection::toggleKey()
+Scene withCopy(Scene scene, int light)
 {
-    Scene scene = mDocument.scene();
-    const int selected = mDocument.selectedLight();
-    if (selected < 0 || selected >= scene.lights.size())
-        return;
-    AreaLight& light = scene.lights[selected];
-    const int frame = mHost.currentFrame();
-    const bool hasKey = keyFrames(light).contains(frame);
-    light = hasKey ? withoutKey(light, frame) : withKey(light, frame);
-    mDocument.edit(hasKey ? tr("Remove Key") : tr("Add Key"), scene);
+    if (light < 0 || light >= scene.lights.size() || scene.lights.size() >= MaxLights)
+        return scene;
+    AreaLight copy = scene.lights[light];
+    const double aside = CopyDistance * defaultHeight(scene.canvas);
+    copy.x += aside;
+    copy.y += aside;
+    for (LightKey& key : copy.keys)
+    {
+        key.x += aside;
+        key.y += aside;
+    }
+    if (!copy.name.isEmpty())
+        copy.name = LightsSection::tr("%1 copy").arg(copy.name);
+    scene.lights.insert(light + 1, copy);
+    return scene;
 }
 
 } // namespace lampblack

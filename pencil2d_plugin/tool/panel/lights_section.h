@@ -3,14 +3,11 @@
 
 #include "host/host.h"
 #include "scene/scene_document.h"
-#include "tool/panel/colour_button.h"
-#include "tool/panel/keys_row.h"
+#include "tool/panel/light_row.h"
 #include "tool/panel/section.h"
-#include "tool/panel/value_row.h"
-
-#include <QButtonGroup>
 
 #include <array>
+#include <functional>
 
 namespace lampblack
 {
@@ -22,30 +19,28 @@ class LightsSection : public Section
 public:
     LightsSection(Host& host, SceneDocument& document, QWidget* parent = nullptr);
 
+Q_SIGNALS:
+    void problem(const lampblack::UserError& error);
+
 private:
+    void addRow(int light);
+    void addButtons();
     void refresh();
     void addLight();
-    void deleteLight();
-    void toggleKey();
-    /// Change the selected light as it is at the current frame.
-    void changeLight(const QString& text, int gesture, const std::function<void(AreaLight&)>& apply);
+    void duplicateLight();
+    /// Change a light in what has no keys.
+    void changeLight(int light, const QString& text, const std::function<void(AreaLight&)>& apply);
 
     Host& mHost;
     SceneDocument& mDocument;
-    QButtonGroup* mChoice;
-    std::array<QToolButton*, MaxLights> mLights{};
-    std::array<QColor, MaxLights> mDiscs; ///< colours of the icons of mLights
+    std::array<LightRow*, MaxLights> mRows{};
     QToolButton* mAdd;
+    QToolButton* mDuplicate;
     QToolButton* mDelete;
-    QWidget* mNumbers;
-    ColourButton* mColour;
-    ValueRow* mPower;
-    ValueRow* mSize;
-    ValueRow* mHeight;
-    KeysRow* mKeys;
+    QToolButton* mRigs;
 };
 
-/// A button for a row of small tools.
-QToolButton* smallButton(const QString& name, const QString& text, const QString& hint, QWidget* parent);
+/// `scene` with a copy of one of its lights behind it, a little aside.
+Scene withCopy(Scene scene, int light);
 
 } // namespace lampblack

@@ -3,13 +3,14 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QHBoxLayout>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 namespace lampblack
 {
 
-ProblemCard::ProblemCard(QWidget* parent) : QFrame(parent), mWhat(new QLabel(this)), mRemedy(new QLabel(this))
+ProblemCard::ProblemCard(QWidget* parent)
+    : QFrame(parent), mWhat(new QLabel(this)), mRemedy(new QLabel(this)), mRetry(new QToolButton(this)),
+      mCopy(new QToolButton(this))
 {
     setObjectName(QStringLiteral("lampblack.panel.problem"));
     setFrameShape(QFrame::StyledPanel);
@@ -35,25 +36,28 @@ ProblemCard::ProblemCard(QWidget* parent) : QFrame(parent), mWhat(new QLabel(thi
     QFont bold = mWhat->font();
     bold.setBold(true);
     mWhat->setFont(bold);
-    auto* copy = new QToolButton(this);
-    copy->setObjectName(QStringLiteral("lampblack.panel.problem.copy"));
-    copy->setText(tr("Copy details"));
-    copy->setAutoRaise(true);
     auto* dismiss = new QToolButton(this);
-    dismiss->setObjectName(QStringLiteral("lampblack.panel.problem.dismiss"));
-    dismiss->setText(tr("Dismiss"));
-    dismiss->setAutoRaise(true);
     auto* buttons = new QHBoxLayout;
-    buttons->addWidget(copy);
+    const auto addButton = [buttons](QToolButton* button, const QString& name, const QString& text)
+    {
+        button->setObjectName(QStringLiteral("lampblack.panel.problem.") + name);
+        button->setText(text);
+        button->setAutoRaise(true);
+        buttons->addWidget(button);
+    };
+    addButton(mRetry, QStringLiteral("retry"), tr("Try Again"));
+    addButton(mCopy, QStringLiteral("copy"), tr("Copy Details"));
     buttons->addStretch(1);
-    buttons->addWidget(dismiss);
+    addButton(dismiss, QStringLiteral("dismiss"), tr("Dismiss"));
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(8, 6, 4, 2);
     column->setSpacing(3);
     column->addWidget(mWhat);
     column->addWidget(mRemedy);
     column->addLayout(buttons);
-    connect(copy, &QToolButton::clicked, this, [this] { QApplication::clipboard()->setText(report()); });
+    connect(mRetry, &QToolButton::clicked, this, &QWidget::hide);
+    connect(mRetry, &QToolButton::clicked, this, &ProblemCard::retryRequested);
+    connect(mCopy, &QToolButton::clicked, this, [this] { QApplication::clipboard()->setText(report()); });
     connect(dismiss, &QToolButton::clicked, this, &QWidget::hide);
     hide();
 }
@@ -64,7 +68,16 @@ void ProblemCard::showError(const UserError& error)
     mWhat->setText(error.what);
     mRemedy->setText(error.remedy);
     mRemedy->setVisible(!error.remedy.isEmpty());
+    mRetry->setVisible(error.kind == UserError::Kind::NoWorker);
+    // An empty drawing is no fault, so there is nothing to report.
+    mCopy->setVisible(error.kind != UserError::Kind::NothingDrawn);
     show();
+}
+
+void ProblemCard::settle(UserError::Kind kind)
+{
+    if (mError.kind == kind)
+        hide();
 }
 
 QString ProblemCard::report() const

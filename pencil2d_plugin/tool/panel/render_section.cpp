@@ -12,14 +12,31 @@
 namespace lampblack
 {
 
-RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* parent)
+namespace
+{
+
+/// A button that does what the action does, and rests when it rests.
+QPushButton* buttonFor(QAction& action, const QString& name, QWidget* parent)
+{
+    auto* button = new QPushButton(action.text(), parent);
+    button->setObjectName(name);
+    button->setToolTip(action.toolTip());
+    button->setAutoDefault(false);
+    button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    QObject::connect(button, &QPushButton::clicked, &action, &QAction::trigger);
+    QObject::connect(&action, &QAction::changed, button,
+                     [button, &action] { button->setEnabled(action.isEnabled()); });
+    return button;
+}
+
+} // namespace
+
+RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction& render, QWidget* parent)
     : Section(QStringLiteral("lampblack.panel.render_section"), tr("Whole animation"), true, parent),
       mDocument(document), mRender(render), mRange(new QComboBox(this)), mQuality(new QComboBox(this)),
       mHide(new QCheckBox(tr("Hide the sources"), this)),
-      mGenerate(new QPushButton(tr("Generate Surfaces"), this)),
-      mRenderAll(new QPushButton(tr("Render All Frames"), this)), mOutdated(new QLabel(this)),
-      mRenderChanged(new QPushButton(tr("Render What Changed"), this)), mSurfaceBar(new QProgressBar(this)),
-      mRenderBar(new QProgressBar(this)), mCancel(new QPushButton(tr("Cancel"), this))
+      mRenderAll(buttonFor(render, QStringLiteral("lampblack.panel.render"), this)),
+      mOutdated(new QLabel(this)), mRenderChanged(new QPushButton(tr("Render What Changed"), this))
 {
     mRange->setObjectName(QStringLiteral("lampblack.panel.range"));
     mRange->setAccessibleName(tr("Frames to render"));
@@ -33,45 +50,27 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
     mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
     mQuality->addItems({tr("Low"), tr("Medium"), tr("Final")});
     ignoreWheelWithoutFocus(mQuality);
-    mGenerate->setObjectName(QStringLiteral("lampblack.panel.generate"));
-    mGenerate->setToolTip(tr("Model every frame now, so that scrubbing and playing are lit at once."));
-    mRenderAll->setObjectName(QStringLiteral("lampblack.panel.render"));
-    mRenderAll->setToolTip(render.toolTip());
-    mSurfaceBar->setObjectName(QStringLiteral("lampblack.panel.generate.progress"));
-    mSurfaceBar->setAccessibleName(tr("Frames with surfaces"));
-    mSurfaceBar->setFormat(tr("%v of %m"));
-    mRenderBar->setObjectName(QStringLiteral("lampblack.panel.render.progress"));
-    mRenderBar->setAccessibleName(tr("Rendered frames"));
-    mRenderBar->setFormat(tr("%v of %m"));
     mOutdated->setObjectName(QStringLiteral("lampblack.panel.outdated"));
     mOutdated->setWordWrap(true);
     mRenderChanged->setObjectName(QStringLiteral("lampblack.panel.render_changed"));
     mRenderChanged->setToolTip(tr("Light again only the frames whose drawing or light has changed since."));
-    mCancel->setObjectName(QStringLiteral("lampblack.panel.cancel"));
-    for (QPushButton* button : {mGenerate, mRenderAll, mRenderChanged, mCancel})
-    {
-        button->setAutoDefault(false);
-        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    }
+    mRenderChanged->setAutoDefault(false);
+    mRenderChanged->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    connect(&render, &QAction::changed, mRenderChanged,
+            [this] { mRenderChanged->setEnabled(mRender.isEnabled()); });
     auto* choices = new QGridLayout;
     choices->setColumnStretch(0, 1);
     choices->addWidget(new QLabel(tr("Frames"), this), 0, 0);
     choices->addWidget(mRange, 0, 1);
     choices->addWidget(new QLabel(tr("Quality"), this), 1, 0);
     choices->addWidget(mQuality, 1, 1);
-    body()->addWidget(mGenerate);
-    body()->addWidget(mSurfaceBar);
+    body()->addWidget(buttonFor(surfaces, QStringLiteral("lampblack.panel.generate"), this));
     body()->addLayout(choices);
     body()->addWidget(mHide);
     body()->addWidget(mRenderAll);
     body()->addWidget(mOutdated);
     body()->addWidget(mRenderChanged);
-    body()->addWidget(mRenderBar);
-    body()->addWidget(mCancel);
-    connect(mGenerate, &QPushButton::clicked, this, &RenderSection::generateSurfacesRequested);
-    connect(mRenderAll, &QPushButton::clicked, &render, &QAction::trigger);
     connect(mRenderChanged, &QPushButton::clicked, this, &RenderSection::renderChangedRequested);
-    connect(mCancel, &QPushButton::clicked, this, &RenderSection::cancelRequested);
     connect(mRange, qOverload<int>(&QComboBox::currentIndexChanged), this, &RenderSection::updateRenderText);
     connect(mQuality, qOverload<int>(&QComboBox::activated), this,
             [this](int index)
@@ -82,8 +81,6 @@ RenderSection::RenderSection(SceneDocument& document, QAction& render, QWidget* 
             });
     connect(&document, &SceneDocument::sceneChanged, this, &RenderSection::refresh);
     setOutdated(0, 0);
-    setSurfaceProgress(0, 0);
-    setRenderProgress(0, 0);
     refresh();
 }
 
@@ -104,29 +101,6 @@ void RenderSection::setOutdated(int outdated, int total)
     mOutdated->setText(tr("%1 of %2 lit frames are out of date").arg(outdated).arg(total));
     mOutdated->setVisible(outdated > 0);
     mRenderChanged->setVisible(outdated > 0);
-}
-
-void RenderSection::setSurfaceProgress(int done, int total)
-{
-    setProgress(mSurfaceBar, done, total);
-}
-
-void RenderSection::setRenderProgress(int done, int total)
-{
-    setProgress(mRenderBar, done, total);
-}
-
-void RenderSection::setProgress(QProgressBar* bar, int done, int total)
-{
-    bar->setVisible(total > 0);
-    bar->setRange(0, total);
-    bar->setValue(done);
-    const bool isWorking = mSurfaceBar->isVisibleTo(this) || mRenderBar->isVisibleTo(this);
-    mCancel->setVisible(isWorking);
-    mGenerate->setEnabled(!isWorking);
-    mRenderAll->setEnabled(!isWorking);
-    mRenderChanged->setEnabled(!isWorking);
-    mRender.setEnabled(!isWorking);
 }
 
 WorkerLine::WorkerLine(QWidget* parent) : QWidget(parent), mText(new QLabel(this))

@@ -1,4 +1,4 @@
-// Jobs for the whole animation and their progress, and the worker's state.
+// Jobs for the whole animation, and the worker's state.
 #pragma once
 
 #include "scene/scene_document.h"
@@ -9,7 +9,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
-#include <QProgressBar>
 #include <QPushButton>
 
 namespace lampblack
@@ -20,12 +19,8 @@ class RenderSection : public Section
     Q_OBJECT
 
 public:
-    /// `render` is the action behind the button.
-    RenderSection(SceneDocument& document, QAction& render, QWidget* parent = nullptr);
-
-    /// `total` 0: no such job is running.
-    void setSurfaceProgress(int done, int total);
-    void setRenderProgress(int done, int total);
+    /// The actions behind the buttons.
+    RenderSection(SceneDocument& document, QAction& surfaces, QAction& render, QWidget* parent = nullptr);
 
     /// How many frames of the result layer are out of date, and how many it has.
     void setOutdated(int outdated, int total);
@@ -34,27 +29,20 @@ public:
     bool hidesSources() const { return mHide->isChecked(); }
 
 Q_SIGNALS:
-    void generateSurfacesRequested();
     void renderChangedRequested();
-    void cancelRequested();
 
 private:
     void refresh();
     void updateRenderText();
-    void setProgress(QProgressBar* bar, int done, int total);
 
     SceneDocument& mDocument;
     QAction& mRender;
     QComboBox* mRange;
     QComboBox* mQuality;
     QCheckBox* mHide;
-    QPushButton* mGenerate;
     QPushButton* mRenderAll;
     QLabel* mOutdated;
     QPushButton* mRenderChanged;
-    QProgressBar* mSurfaceBar;
-    QProgressBar* mRenderBar;
-    QPushButton* mCancel;
 };
 
 /// The worker's state as text, with a coloured dot.

@@ -24,7 +24,12 @@ Section::Section(const QString& name, const QString& title, bool open, QWidget* 
     column->setSpacing(2);
     column->addWidget(mHeading);
     column->addWidget(mContent);
-    connect(mHeading, &QToolButton::clicked, this, [this] { setOpen(!mOpen); });
+    connect(mHeading, &QToolButton::clicked, this,
+            [this]
+            {
+                setOpen(!mOpen);
+                Q_EMIT toggled(mOpen);
+            });
     setOpen(open);
 }
 

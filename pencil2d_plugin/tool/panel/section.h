@@ -16,10 +16,14 @@ public:
     /// The heading's objectName is `name`.
     Section(const QString& name, const QString& title, bool open, QWidget* parent = nullptr);
 
+    QString name() const { return mHeading->objectName(); }
     QVBoxLayout* body() { return mBody; }
     bool isOpen() const { return mOpen; }
     void setOpen(bool open);
     void setTitle(const QString& title) { mHeading->setText(title); }
+
+Q_SIGNALS:
+    void toggled(bool open); ///< by the artist
 
 private:
     QToolButton* mHeading;

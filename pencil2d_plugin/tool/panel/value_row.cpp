@@ -23,14 +23,17 @@ double SliderScale::valueAt(double position) const
 {
     const double distance = std::abs(position);
     const double share = bend > 0 ? std::expm1(bend * distance) / std::expm1(bend) : distance;
-    return std::clamp(std::copysign(share * end, position), least, most);
+    if (both)
+        return std::clamp(std::copysign(share * end, position), least, most);
+    return std::clamp(start + share * (end - start), least, most);
 }
 
 double SliderScale::positionOf(double value) const
 {
-    const double share = std::min(1.0, std::abs(value) / end);
+    const double way = both ? std::abs(value) / end : (value - start) / (end - start);
+    const double share = std::clamp(way, 0.0, 1.0);
     const double position = bend > 0 ? std::log1p(share * std::expm1(bend)) / bend : share;
-    return std::copysign(position, value);
+    return both ? std::copysign(position, value) : position;
 }
 
 ValueRow::ValueRow(const QString& name, const QString& label, const SliderScale& scale, QWidget* parent)
@@ -95,7 +98,6 @@ void ValueRow::setScale(const SliderScale& scale)
     mSlider->setPageStep(Steps / 10);
     mSlider->setSingleStep(Steps / 100);
     mField->setDecimals(scale.decimals);
-    mField->setRange(scale.least, scale.most);
     mField->setSingleStep(scale.end / 20);
     setValue(shown);
 }
@@ -103,6 +105,7 @@ void ValueRow::setScale(const SliderScale& scale)
 void ValueRow::setValue(double value)
 {
     const QSignalBlocker blocker(mField);
+    mField->setRange(std::min(mScale.least, value), std::max(mScale.most, value));
     mField->setValue(value);
     showOnSlider(value);
 }

@@ -15,12 +15,13 @@ namespace lampblack
 /// its middle.
 struct SliderScale
 {
-    double least = 0; ///< minimum of the field; the slider starts at 0 or at -end
+    double least = 0; ///< minimum of the field; the slider starts at `start` or at -end
     double most = 1;  ///< maximum of the field
     double end = 1;   ///< maximum of the slider
     double bend = 0;
     bool both = false;
     int decimals = 2;
+    double start = 0; ///< minimum of a slider that is not `both`
 
     double valueAt(double position) const; ///< position 0..1, or -1..1 if both
     double positionOf(double value) const;
@@ -39,7 +40,7 @@ public:
     static int labelWidth(const QFontMetrics& metrics);
 
     double value() const { return mField->value(); }
-    /// Show a value; does not emit edited().
+    /// Show a value, in or out of the scale; does not emit edited().
     void setValue(double value);
     void setScale(const SliderScale& scale);
     void setSuffix(const QString& suffix) { mField->setSuffix(suffix); }

@@ -59,6 +59,16 @@ public Q_SLOTS:
     void vScrollChange(int) {}
 };
 
+class TimeControls : public QWidget
+{
+    Q_OBJECT
+};
+
+class ColorPaletteWidget : public QDockWidget
+{
+    Q_OBJECT
+};
+
 class RecentFileMenu : public QMenu
 {
     Q_OBJECT
@@ -243,6 +253,98 @@ private Q_SLOTS:
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
         QVERIFY(open->isVisible());
         QCOMPARE(file->actions().size(), 2);
+    }
+
+    void theTitleMarksALightThatIsNotSaved()
+    {
+        const auto window = bareWindow();
+        window->setWindowTitle(QStringLiteral("[*]/home/ann/walk.pclx"));
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        host->markModified(true);
+        QCOMPARE(window->windowTitle(), QStringLiteral("[*]*/home/ann/walk.pclx"));
+        QVERIFY2(!host->isModified(), "the drawings are saved");
+        QCOMPARE(host->projectPath(), QStringLiteral("/home/ann/walk.pclx"));
+        window->setWindowModified(true);
+        QCOMPARE(window->windowTitle(), QStringLiteral("[*]/home/ann/walk.pclx"));
+        window->setWindowModified(false);
+        window->setWindowTitle(QStringLiteral("[*]/home/ann/run.pclx"));
+        QCOMPARE(window->windowTitle(), QStringLiteral("[*]*/home/ann/run.pclx"));
+        QTest::qWait(300);
+        QCOMPARE(host->projectPath(), QStringLiteral("/home/ann/run.pclx"));
+        host->markModified(false);
+        QCOMPARE(window->windowTitle(), QStringLiteral("[*]/home/ann/run.pclx"));
+    }
+
+    void theMenuSaysLight()
+    {
+        const auto window = bareWindow();
+        QMenu* animation = window->menuBar()->addMenu(QStringLiteral("Animation"));
+        animation->setObjectName(QStringLiteral("menuAnimation"));
+        animation->addAction(QStringLiteral("Flip Rolling"));
+        QAction render(QStringLiteral("Render All Frames"));
+        {
+            const std::unique_ptr<Host> host(createHost(nullptr));
+            host->addLightAction(&render);
+            const QList<QAction*> entries = animation->actions();
+            QCOMPARE(entries.size(), 3);
+            QVERIFY(entries[1]->isSeparator());
+            QCOMPARE(entries[2]->text(), QStringLiteral("Light"));
+            QCOMPARE(entries[2]->menu()->actions(), QList<QAction*>{&render});
+        }
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        QCOMPARE(animation->actions().size(), 1);
+    }
+
+    void aLoopBeyondTheLastDrawingEndsWithIt()
+    {
+        const auto window = bareWindow();
+        auto* controls = new TimeControls;
+        controls->setParent(window.get());
+        QVector<QSpinBox*> boxes;
+        for (int place = 0; place < 3; ++place)
+        {
+            boxes << new QSpinBox(controls);
+            boxes.last()->setMaximum(100);
+        }
+        boxes[1]->setValue(1);
+        boxes[2]->setValue(16);
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QCOMPARE(host->loopRange().last, host->frameCount());
+    }
+
+    void aDockOfOursFitsAndComesBackAsItWasLeft()
+    {
+        const auto window = bareWindow();
+        auto* palette = new ColorPaletteWidget;
+        palette->setObjectName(QStringLiteral("palette"));
+        palette->setWidget(new QWidget);
+        window->addDockWidget(Qt::RightDockWidgetArea, palette);
+        palette->show();
+        const auto ours = []
+        {
+            auto* dock = new QDockWidget(QStringLiteral("Materials"));
+            dock->setObjectName(QStringLiteral("lampblack.materials"));
+            dock->setWidget(new QWidget);
+            dock->widget()->setMinimumHeight(200);
+            return dock;
+        };
+        QByteArray left;
+        {
+            const int before = window->minimumSizeHint().height();
+            const std::unique_ptr<Host> host(createHost(nullptr));
+            const std::unique_ptr<QDockWidget> dock(ours());
+            host->addDock(dock.get());
+            QCoreApplication::processEvents();
+            QVERIFY(window->tabifiedDockWidgets(palette).contains(dock.get()));
+            QVERIFY(window->minimumSizeHint().height() < before + 300);
+            dock->close();
+            left = window->saveState();
+        }
+        window->restoreState(left); // before the plugin is there
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        const std::unique_ptr<QDockWidget> dock(ours());
+        host->addDock(dock.get());
+        QVERIFY2(dock->isHidden(), "it was closed");
     }
 
     void windowMayGoFirst()

@@ -14,9 +14,25 @@ class StudioJobsTest : public StudioTest
 
 private:
     void click(const char* button) const { find<QAbstractButton>(button)->click(); }
-    bool isWorking() const { return !find<QAbstractButton>("panel.cancel")->isHidden(); }
+    QAction* entry(const char* name) const
+    {
+        const QString wanted = QStringLiteral("lampblack.") + QLatin1String(name);
+        for (QAction* action : mHost->mLightMenu)
+            if (action->objectName() == wanted)
+                return action;
+        return nullptr;
+    }
+    bool isWorking() const { return !find<QWidget>("panel.job")->isHidden(); }
 
 private Q_SLOTS:
+    void aLightThatIsNotSavedMarksTheTitle()
+    {
+        setPower(3);
+        QVERIFY(mHost->mMarked);
+        Q_EMIT mHost->projectSaved(mHost->mProject);
+        QVERIFY(!mHost->mMarked);
+    }
+
     void renderNeedsNoLamp()
     {
         click("panel.render");
@@ -29,8 +45,8 @@ private Q_SLOTS:
 
         mWorker->finishFrames({1, 2, 3});
         Q_EMIT mWorker->renderProgress(mWorker->mJob, 3, 1, 3, 8);
-        QCOMPARE(find<QProgressBar>("panel.render.progress")->value(), 3);
-        QVERIFY(mHost->mStatus.contains(QLatin1String("3 / 8")));
+        QCOMPARE(find<QProgressBar>("panel.progress")->value(), 3);
+        QVERIFY(mHost->mStatus.contains(QLatin1String("Rendering: 3 of 8")));
         mWorker->finishFrames({4, 5, 6, 7, 8});
         mWorker->endJob();
         QTRY_VERIFY(!isWorking());
@@ -72,6 +88,21 @@ private Q_SLOTS:
         mWorker->endJob();
         QTest::qWait(20);
         QVERIFY(mHost->mDelivered.isEmpty());
+    }
+
+    void aRenderFromTheMenuCanBeCancelledWithoutThePanel()
+    {
+        mHost->mWindow.show();
+        mHost->mPanel->hide();
+        auto* cancel = find<QAbstractButton>("status.cancel");
+        QVERIFY(!cancel->isVisible());
+        entry("render")->trigger();
+        QVERIFY(cancel->isVisible());
+        QVERIFY(entry("cancel")->isEnabled());
+        cancel->click();
+        QCOMPARE(mWorker->mCancelled, 1);
+        QVERIFY(!cancel->isVisible());
+        QVERIFY(!entry("cancel")->isEnabled());
     }
 
     void renderWithoutAProjectIsRefused()
@@ -158,9 +189,14 @@ private Q_SLOTS:
         QCOMPARE(mWorker->mStarted, 1);
         QCOMPARE(mWorker->mPut.size(), 8);
         Q_EMIT mWorker->framesLit(3, 8);
-        QCOMPARE(find<QProgressBar>("panel.generate.progress")->value(), 3);
+        QCOMPARE(find<QProgressBar>("panel.progress")->value(), 3);
         QVERIFY(isWorking());
-        Q_EMIT mWorker->framesLit(8, 8);
+        // A ninth frame, held from before, is no part of the job.
+        Q_EMIT mWorker->framesLit(7, 9);
+        QCOMPARE(find<QProgressBar>("panel.progress")->value(), 6);
+        QCOMPARE(find<QProgressBar>("panel.progress")->maximum(), 8);
+        QCOMPARE(mHost->mStatus, QStringLiteral("Generating surfaces: 6 of 8"));
+        Q_EMIT mWorker->framesLit(9, 9);
         QVERIFY(!isWorking());
         QCOMPARE(mWorker->mJob, 0ULL);
     }

@@ -4,6 +4,7 @@
 #include "host/host.h"
 
 #include <QMainWindow>
+#include <QStatusBar>
 #include <QtTest>
 
 namespace lampblack
@@ -50,8 +51,14 @@ public:
         mWindow.addDockWidget(Qt::LeftDockWidgetArea, dock);
     }
     void addDock(QDockWidget* dock) override { mWindow.addDockWidget(Qt::RightDockWidgetArea, dock); }
-    void addAnimationAction(QAction* action) override { mAnimation << action; }
+    void addLightAction(QAction* action) override { mLightMenu << action; }
     void showStatus(const QString& text, int) override { mStatus = text; }
+    void addStatusWidget(QWidget* widget) override { mWindow.statusBar()->addPermanentWidget(widget); }
+    QVariant remembered(const QString& key, const QVariant& otherwise) const override
+    {
+        return mRemembered.value(key, otherwise);
+    }
+    void remember(const QString& key, const QVariant& value) override { mRemembered.insert(key, value); }
     std::optional<QTransform> canvasToWidget() const override { return mView; }
     QSize canvasSize() const override { return {400, 300}; }
     QColor paper() const override { return mPaper; }
@@ -82,6 +89,7 @@ public:
     }
     QString projectPath() const override { return mProject; }
     bool isModified() const override { return mModified; }
+    void markModified(bool lightModified) override { mMarked = lightModified; }
     void guardLeaving(const std::function<bool()>& mayLeave) override { mMayLeave = mayLeave; }
     bool openProject(const QString&) override { return false; }
     bool saveProject() override
@@ -123,7 +131,9 @@ public:
     QWidget* mCanvas = nullptr;
     QAction* mTool = nullptr;
     QWidget* mPanel = nullptr;
-    QVector<QAction*> mAnimation;
+    QVector<QAction*> mLightMenu;
+    QMap<QString, QVariant> mRemembered;
+    bool mMarked = false;
     QString mStatus;
     std::optional<QTransform> mView = QTransform();
     QColor mPaper = Qt::white;

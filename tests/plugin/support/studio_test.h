@@ -66,7 +66,7 @@ protected:
     bool showsPicture() const { return find<CanvasOverlay>("overlay")->showsPicture(); }
     void setKeepsLight(bool keeps) const
     {
-        for (QAction* action : mHost->mAnimation)
+        for (QAction* action : mHost->mLightMenu)
         {
             if (action->objectName() == QLatin1String("lampblack.keep_light"))
                 action->setChecked(keeps);

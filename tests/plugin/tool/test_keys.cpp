@@ -6,7 +6,11 @@
 #include "tool/canvas/canvas_overlay.h"
 #include "tool/canvas/key_input.h"
 
+#include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QPushButton>
+#include <QSlider>
 
 #include <memory>
 
@@ -128,6 +132,27 @@ private Q_SLOTS:
         QTest::keyPress(mHost->mCanvas, Qt::Key_D);
         mKeys->setListening(false);
         QVERIFY(mOverlay->showsPicture());
+    }
+
+    void holdingDWorksAfterAWidgetOfThePanelWasUsed()
+    {
+        PreviewImage image;
+        image.picture = QImage(4, 4, QImage::Format_RGBA8888_Premultiplied);
+        image.picture.fill(Qt::red);
+        image.crop = QRectF(0, 0, 400, 300);
+        mOverlay->setPicture(image, QTransform());
+        const QVector<QWidget*> controls{new QPushButton(mHost->mCanvas), new QSlider(mHost->mCanvas),
+                                         new QComboBox(mHost->mCanvas), new QDoubleSpinBox(mHost->mCanvas)};
+        for (QWidget* control : controls)
+        {
+            control->show();
+            control->setFocus();
+            QTRY_VERIFY(control->hasFocus());
+            QTest::keyPress(control, Qt::Key_D);
+            QVERIFY2(!mOverlay->showsPicture(), control->metaObject()->className());
+            QTest::keyRelease(control, Qt::Key_D);
+            QVERIFY(mOverlay->showsPicture());
+        }
     }
 
     void textThatIsTypedElsewhereKeepsItsUndo()

@@ -53,7 +53,8 @@ private Q_SLOTS:
         QVERIFY(!host.mTool->icon().pixmap(24).isNull());
         QCOMPARE(host.mTool->shortcut(), QKeySequence(Qt::Key_L));
         QVERIFY(host.mPanel != nullptr);
-        QCOMPARE(host.mAnimation, (QVector<QAction*>{lamp.renderAction(), lamp.keepAction()}));
+        QVERIFY(host.mLightMenu.contains(lamp.renderAction()));
+        QVERIFY(host.mLightMenu.contains(lamp.keepAction()));
     }
 
     void showsThePictureItIsGivenWhileInUse()
@@ -154,6 +155,70 @@ private Q_SLOTS:
         QCOMPARE(host.mStatus, QStringLiteral("It broke."));
     }
 
+    void anEmptyDrawingIsAnInvitationThatGoesByItself()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        host.open();
+        auto* card = host.mPanel->findChild<ProblemCard*>();
+        const auto tellBlank = [&worker](int frame)
+        {
+            Q_EMIT worker.problem({QStringLiteral("Nothing is drawn here yet."), QStringLiteral("Draw."),
+                                   QString(), UserError::Kind::NothingDrawn, frame});
+        };
+        tellBlank(5);
+        QVERIFY2(!card->isVisibleTo(host.mPanel), "another frame is shown");
+        tellBlank(1);
+        QVERIFY(card->isVisibleTo(host.mPanel));
+        Q_EMIT host.drawingChanged(1);
+        QVERIFY(!card->isVisibleTo(host.mPanel));
+        tellBlank(1);
+        Q_EMIT worker.imageArrived(worker.pictureOf(1));
+        QVERIFY(!card->isVisibleTo(host.mPanel));
+        tellBlank(1);
+        host.goToFrame(2);
+        QVERIFY(!card->isVisibleTo(host.mPanel));
+        Q_EMIT worker.problem({QStringLiteral("It broke."), QString(), QString()});
+        Q_EMIT worker.imageArrived(worker.pictureOf(2));
+        QVERIFY2(card->isVisibleTo(host.mPanel), "other problems stay until they are read");
+    }
+
+    void aWorkerThatIsNotThereCanBeTriedAgain()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        host.open();
+        auto* card = host.mPanel->findChild<ProblemCard*>();
+        auto* retry = card->findChild<QToolButton*>(QStringLiteral("lampblack.panel.problem.retry"));
+        Q_EMIT worker.problem({QStringLiteral("It broke."), QString(), QString()});
+        QVERIFY(!retry->isVisibleTo(card));
+        Q_EMIT worker.problem({QStringLiteral("Lampblack's worker is not installed."), QString(), QString(),
+                               UserError::Kind::NoWorker});
+        const int started = worker.mStarted;
+        QVERIFY(retry->isVisibleTo(card));
+        retry->click();
+        QCOMPARE(worker.mStarted, started + 1);
+        QVERIFY(!card->isVisibleTo(host.mPanel));
+    }
+
+    void anotherProjectHasOtherColours()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        const QString row = QStringLiteral("lampblack.materials.row.#dd3f2e");
+        lamp.setPalette({{QStringLiteral("#dd3f2e"), 100}});
+        QVERIFY(host.mWindow.findChild<QWidget*>(row) != nullptr);
+        Q_EMIT host.projectOpened(QString());
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        QVERIFY(host.mWindow.findChild<QWidget*>(row) == nullptr);
+    }
+
     void asksForWorkByButtonAndMenu()
     {
         FakeHost host;
@@ -163,7 +228,7 @@ private Q_SLOTS:
         QSignalSpy render(&lamp, &LampTool::renderAllRequested);
         QSignalSpy surfaces(&lamp, &LampTool::generateSurfacesRequested);
         host.mPanel->findChild<QPushButton*>(QStringLiteral("lampblack.panel.render"))->click();
-        host.mAnimation.first()->trigger();
+        lamp.renderAction()->trigger();
         host.mPanel->findChild<QPushButton*>(QStringLiteral("lampblack.panel.generate"))->click();
         QCOMPARE(render.count(), 2);
         QCOMPARE(surfaces.count(), 1);
@@ -181,7 +246,7 @@ private Q_SLOTS:
         LampTool lamp(host, worker, document);
         host.open();
         QVERIFY(host.mWindow.findChild<QLabel*>(QStringLiteral("lampblack.panel.blind")) != nullptr);
-        QVERIFY(host.mAnimation.contains(lamp.toolAction()));
+        QVERIFY(host.mLightMenu.contains(lamp.toolAction()));
         lamp.toolAction()->trigger();
         QVERIFY(lamp.isActive());
         lamp.setPicture(image(Show::Lit));

@@ -77,6 +77,35 @@ private Q_SLOTS:
         QVERIFY(!gloss->isVisibleTo(&dock));
     }
 
+    void theArrowOpensLookLightAndVolume()
+    {
+        MaterialsDock dock(mDocument);
+        dock.setPalette({{Red, 100}});
+        const auto field = [&dock](const char* name)
+        {
+            return dock.findChild<QDoubleSpinBox*>(
+                QStringLiteral("lampblack.materials.%1.%2.field").arg(QLatin1String(name), Red));
+        };
+        QVERIFY(field("volume") == nullptr);
+        auto* arrow = dock.findChild<QToolButton*>(QStringLiteral("lampblack.materials.more.") + Red);
+        arrow->click();
+        field("volume")->setValue(1.5);
+        field("nearer")->setValue(0.1);
+        QCOMPARE(mDocument.scene().depth.colours.size(), 1);
+        QCOMPARE(mDocument.scene().depth.colours[0].volume, 1.5);
+        QCOMPARE(mDocument.scene().depth.colours[0].nearer, 0.1);
+        field("emission")->setValue(2);
+        QCOMPARE(materialOf(mDocument.scene(), Red).emission, 2.0);
+        auto* look = dock.findChild<QComboBox*>(QStringLiteral("lampblack.materials.look.") + Red);
+        Q_EMIT look->activated(int(LookChoice::Smooth));
+        QCOMPARE(materialOf(mDocument.scene(), Red).look, LookChoice::Smooth);
+        field("volume")->setValue(1);
+        field("nearer")->setValue(0);
+        QVERIFY2(mDocument.scene().depth.colours.isEmpty(), "what corrects nothing is not stored");
+        arrow->click();
+        QVERIFY(!field("volume")->isVisibleTo(&dock));
+    }
+
     void coloursOfOtherFramesAreKept()
     {
         MaterialsDock dock(mDocument);

@@ -1,12 +1,16 @@
 // Panel and document agree, both ways, and neither echoes.
 #include "support/fake_host.h"
 #include "support/scenes.h"
+#include "tool/panel/colour_button.h"
+#include "tool/panel/elided_label.h"
 #include "tool/panel/lamp_panel.h"
+#include "tool/panel/rig_menu.h"
 #include "tool/panel/value_row.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLineEdit>
+#include <QProgressBar>
 #include <QScrollBar>
 #include <QWheelEvent>
 #include <QtTest/qtestspontaneevent.h>
@@ -22,6 +26,7 @@ class PanelTest : public QObject
 private:
     std::unique_ptr<FakeHost> mHost;
     std::unique_ptr<SceneDocument> mDocument;
+    std::unique_ptr<QAction> mSurfaces;
     std::unique_ptr<QAction> mRender;
     std::unique_ptr<LampPanel> mPanel;
 
@@ -29,6 +34,7 @@ private:
     {
         return mPanel->findChild<Widget*>(QStringLiteral("lampblack.panel.") + QLatin1String(name));
     }
+    void makePanel() { mPanel = std::make_unique<LampPanel>(*mHost, *mDocument, *mSurfaces, *mRender); }
     const AreaLight& light() const { return mDocument->scene().lights[0]; }
 
 private Q_SLOTS:
@@ -37,8 +43,9 @@ private Q_SLOTS:
         mHost = std::make_unique<FakeHost>();
         mDocument = std::make_unique<SceneDocument>();
         mDocument->reset(sceneWithLight(200, 150, 200));
+        mSurfaces = std::make_unique<QAction>();
         mRender = std::make_unique<QAction>();
-        mPanel = std::make_unique<LampPanel>(*mHost, *mDocument, *mRender);
+        makePanel();
         mPanel->resize(200, 500);
         mPanel->show();
     }
@@ -149,6 +156,155 @@ private Q_SLOTS:
         QVERIFY(!find<QSlider>("power")->isEnabled());
     }
 
+    void eachLightCanBeSwitchedSoloedNamedAndDoubled()
+    {
+        QTest::mouseClick(find<QToolButton>("light.add"), Qt::LeftButton);
+        QTest::mouseClick(find<QToolButton>("light.1.on"), Qt::LeftButton);
+        QVERIFY(!light().on);
+        QVERIFY(mDocument->scene().lights[1].on);
+        QTest::mouseClick(find<QToolButton>("light.2.solo"), Qt::LeftButton);
+        QVERIFY(mDocument->scene().lights[1].solo);
+        mDocument->undoStack()->undo();
+        mDocument->undoStack()->undo();
+        QVERIFY(light().on && find<QToolButton>("light.1.on")->isChecked());
+        auto* name = find<QLineEdit>("light.1.name");
+        QTest::mouseDClick(find<QToolButton>("light.1"), Qt::LeftButton);
+        QVERIFY(name->isVisible());
+        name->setText(QStringLiteral("Moon"));
+        QTest::keyClick(name, Qt::Key_Return);
+        QCOMPARE(light().name, QStringLiteral("Moon"));
+        QCOMPARE(find<QToolButton>("light.1")->text(), QStringLiteral("Moon"));
+        QVERIFY(!name->isVisible());
+        mDocument->selectLight(0);
+        QTest::mouseClick(find<QToolButton>("light.duplicate"), Qt::LeftButton);
+        QCOMPARE(mDocument->scene().lights.size(), 3);
+        QCOMPARE(mDocument->selectedLight(), 1);
+        QCOMPARE(mDocument->scene().lights[1].power, light().power);
+        QVERIFY(mDocument->scene().lights[1].x != light().x);
+    }
+
+    void aLightBecomesASunAndHasAPlaceInNumbers()
+    {
+        QVERIFY(find<QToolButton>("lamp")->isChecked());
+        QTest::mouseClick(find<QToolButton>("sun"), Qt::LeftButton);
+        QCOMPARE(light().kind, LightKind::Sun);
+        find<QDoubleSpinBox>("place.x")->setValue(31);
+        QCOMPARE(light().x, 31.0);
+        QCOMPARE(light().y, 150.0);
+        mDocument->undoStack()->undo();
+        QCOMPARE(find<QDoubleSpinBox>("place.x")->value(), 200.0);
+    }
+
+    void warmthIsATemperatureInKelvin()
+    {
+        auto* warmth = find<QDoubleSpinBox>("warmth.field");
+        QVERIFY2(qAbs(warmth->value() - 6500) < 400, "white is daylight");
+        warmth->setValue(2000);
+        const QColor candle = light().colour;
+        QVERIFY(candle.red() == 255 && candle.green() < 160 && candle.blue() < 80);
+        QVERIFY(qAbs(warmth->value() - 2000) < 30);
+        warmth->setValue(12000);
+        QVERIFY(light().colour.blue() == 255 && light().colour.red() < 210);
+    }
+
+    void aLightCastsShadowsOrFills()
+    {
+        find<QCheckBox>("light.shadow")->click();
+        QVERIFY(!light().castsShadow);
+        mDocument->undoStack()->undo();
+        QVERIFY(find<QCheckBox>("light.shadow")->isChecked());
+    }
+
+    void aSwitchedLightKeepsItsKeys()
+    {
+        mHost->mFrame = 3;
+        QTest::mouseClick(find<QToolButton>("keys.here"), Qt::LeftButton);
+        QTest::mouseClick(find<QToolButton>("light.1.on"), Qt::LeftButton);
+        QVERIFY(!light().on);
+        QCOMPARE(light().keys.size(), 1);
+    }
+
+    void aLookIsChosenByItsPicture()
+    {
+        const Scene before = mDocument->scene();
+        QVERIFY(find<QToolButton>("look.smooth")->isChecked());
+        QVERIFY(!find<QToolButton>("look.hard-cel")->icon().isNull());
+        QTest::mouseClick(find<QToolButton>("look.hard-cel"), Qt::LeftButton);
+        QCOMPARE(mDocument->scene().look.tones.size(), 1);
+        QVERIFY(find<QToolButton>("look.hard-cel")->isChecked());
+        QVERIFY(!find<QToolButton>("look.smooth")->isChecked());
+        QTest::mouseClick(find<QToolButton>("look.two-tone-rim"), Qt::LeftButton);
+        QVERIFY(mDocument->scene().rim && find<QCheckBox>("look.rim_on")->isChecked());
+        find<QDoubleSpinBox>("look.softness.field")->setValue(0.3);
+        QVERIFY2(!find<QToolButton>("look.two-tone-rim")->isChecked(), "the look is one's own now");
+        for (int step = 0; step < 3; ++step)
+            mDocument->undoStack()->undo();
+        QVERIFY(mDocument->scene() == before);
+        QVERIFY(find<QToolButton>("look.smooth")->isChecked());
+    }
+
+    void tonesAreCountedAndTheirEdgesMoved()
+    {
+        auto* count = find<QComboBox>("look.tones");
+        QVERIFY(find<QWidget>("look.tone.1.row")->isHidden());
+        Q_EMIT count->activated(2);
+        QCOMPARE(mDocument->scene().look.tones.size(), 2);
+        QVERIFY(!find<QWidget>("look.tone.2.row")->isHidden());
+        find<QDoubleSpinBox>("look.tone.2.field")->setValue(0.9);
+        QCOMPARE(mDocument->scene().look.tones[1], 0.9);
+        Q_EMIT count->activated(0);
+        QVERIFY(mDocument->scene().look.tones.isEmpty());
+    }
+
+    void shadeInkAndRimHaveTheirNumbers()
+    {
+        find<QDoubleSpinBox>("look.shade.field")->setValue(0.4);
+        find<QDoubleSpinBox>("look.ink.field")->setValue(0.6);
+        find<QDoubleSpinBox>("look.contact.field")->setValue(0.5);
+        QCOMPARE(mDocument->scene().look.shadeStrength, 0.4);
+        QCOMPARE(mDocument->scene().look.inkLight, 0.6);
+        QCOMPARE(mDocument->scene().look.contact, 0.5);
+        QVERIFY(!find<QSlider>("look.rim_width")->isEnabled());
+        find<QCheckBox>("look.rim_on")->click();
+        find<QDoubleSpinBox>("look.rim_width.field")->setValue(12);
+        QCOMPARE(mDocument->scene().rim->width, 12.0);
+    }
+
+    void everyControlSaysWhatItIsGoodFor()
+    {
+        const auto controls = mPanel->findChildren<QWidget*>();
+        for (const QWidget* control : controls)
+        {
+            const bool isOurs = control->objectName().startsWith(QLatin1String("lampblack.panel.look.")) ||
+                                control->objectName().startsWith(QLatin1String("lampblack.panel.light."));
+            const bool isControl = qobject_cast<const QAbstractButton*>(control) != nullptr ||
+                                   control->objectName().endsWith(QLatin1String(".row"));
+            if (isOurs && isControl && qobject_cast<const Section*>(control->parentWidget()) == nullptr)
+                QVERIFY2(!control->toolTip().isEmpty(), qPrintable(control->objectName()));
+        }
+    }
+
+    void setsOfLightsReplaceTheLightsInOneStep()
+    {
+        const Scene before = mDocument->scene();
+        auto* menu = mPanel->findChild<RigMenu*>();
+        QCOMPARE(presetRigs().size(), 7);
+        const auto entry = [menu](const char* name)
+        {
+            return menu->findChild<QAction*>(QStringLiteral("lampblack.rigs.") + QLatin1String(name));
+        };
+        QVERIFY(!entry("three-point")->icon().isNull());
+        entry("three-point")->trigger();
+        QCOMPARE(mDocument->scene().lights.size(), 3);
+        QCOMPARE(mDocument->selectedLight(), 0);
+        const Scene lit = mDocument->scene();
+        entry("copy")->trigger();
+        mDocument->undoStack()->undo();
+        QVERIFY(mDocument->scene() == before);
+        entry("paste")->trigger();
+        QVERIFY2(mDocument->scene().lights == lit.lights, "as on another shot's canvas of the same size");
+    }
+
     void theDepthOfALayerIsChosenAndUndone()
     {
         const auto choice = [this]
@@ -216,19 +372,91 @@ private Q_SLOTS:
         QCOMPARE(find<QComboBox>("layer.Line")->currentIndex(), 0);
     }
 
-    void progressShowsAndCanBeCancelled()
+    void progressStaysInSightAndCanBeCancelled()
     {
-        QSignalSpy cancelled(mPanel->render(), &RenderSection::cancelRequested);
-        QVERIFY(!find<QPushButton>("cancel")->isVisibleTo(mPanel.get()));
-        mPanel->render()->setRenderProgress(3, 8);
-        QCOMPARE(find<QProgressBar>("render.progress")->value(), 3);
-        QVERIFY(!find<QPushButton>("generate")->isEnabled());
-        QVERIFY(!mRender->isEnabled());
-        find<QPushButton>("cancel")->click();
+        QSignalSpy cancelled(mPanel->progress(), &JobProgress::cancelRequested);
+        auto* cancel = find<QPushButton>("cancel");
+        QVERIFY(!cancel->isVisible());
+        mPanel->progress()->setProgress(QStringLiteral("Rendering"), 3, 8);
+        QCOMPARE(find<QProgressBar>("progress")->value(), 3);
+        QCOMPARE(find<QProgressBar>("progress")->text(), QStringLiteral("3 of 8"));
+        mPanel->verticalScrollBar()->setValue(mPanel->verticalScrollBar()->maximum());
+        QTRY_VERIFY(!cancel->visibleRegion().isEmpty());
+        QTRY_VERIFY(mPanel->viewport()->y() >= cancel->mapTo(mPanel.get(), QPoint(0, cancel->height())).y());
+        cancel->click();
         QCOMPARE(cancelled.count(), 1);
-        mPanel->render()->setRenderProgress(0, 0);
-        QVERIFY(!find<QPushButton>("cancel")->isVisibleTo(mPanel.get()));
-        QVERIFY(mRender->isEnabled());
+        mPanel->progress()->setProgress(QString(), 0, 0);
+        QVERIFY(!cancel->isVisible());
+    }
+
+    void theButtonsRestWithTheirActions()
+    {
+        mRender->setEnabled(false);
+        QVERIFY(!find<QPushButton>("render")->isEnabled());
+        mRender->setEnabled(true);
+        QSignalSpy triggered(mRender.get(), &QAction::triggered);
+        find<QPushButton>("render")->click();
+        QCOMPARE(triggered.count(), 1);
+    }
+
+    void sectionsStayAsTheyWereLeft()
+    {
+        find<QToolButton>("ambient_section")->click();
+        find<QToolButton>("layers")->click();
+        makePanel();
+        const auto sections = mPanel->findChildren<Section*>();
+        for (const Section* section : sections)
+        {
+            if (section->name().endsWith(QLatin1String("ambient_section")))
+                QVERIFY(!section->isOpen());
+            if (section->name().endsWith(QLatin1String("panel.layers")))
+                QVERIFY(section->isOpen());
+        }
+    }
+
+    void aLongLayerNameEndsInAnEllipsis()
+    {
+        const QString name = QStringLiteral("Bitmap Layer of the left arm");
+        mHost->mLayers.prepend({name, Layer::Kind::Bitmap, true});
+        Q_EMIT mHost->layersChanged();
+        find<QToolButton>("layers")->click();
+        auto* label = find<ElidedLabel>("layer_name.Bitmap Layer of the left arm");
+        QTRY_VERIFY(label->width() > 0 && label->shownText().endsWith(QChar(0x2026)));
+        QCOMPARE(label->toolTip(), name);
+    }
+
+    void fieldsHaveSensibleRangesAndShowWhatIsBeyond()
+    {
+        auto* power = find<QDoubleSpinBox>("power.field");
+        auto* height = find<QDoubleSpinBox>("height.field");
+        QVERIFY(power->maximum() <= 20);
+        QVERIFY(height->minimum() >= -1000 && height->maximum() <= 1000);
+        Scene scene = mDocument->scene();
+        scene.lights[0].power = 60;
+        scene.lights[0].z = -5000;
+        mDocument->edit(QString(), scene);
+        QCOMPARE(power->value(), 60.0);
+        QCOMPARE(height->value(), -5000.0);
+        QCOMPARE(light().z, -5000.0);
+    }
+
+    void theColourDialogLeavesTheDrawingInSight()
+    {
+        QMainWindow window;
+        window.setCentralWidget(new QWidget);
+        auto* dock = new QDockWidget;
+        auto* inside = new QWidget;
+        dock->setWidget(inside);
+        dock->setMinimumWidth(200);
+        window.addDockWidget(Qt::RightDockWidgetArea, dock);
+        window.resize(900, 700);
+        window.show();
+        QVERIFY(QTest::qWaitForWindowExposed(&window));
+        const QSize size(300, 250);
+        const QRect dialog(placeBeside(size, *inside), size);
+        const QWidget& canvas = *window.centralWidget();
+        const QRect drawing(canvas.mapToGlobal(QPoint(150, 100)), canvas.size() - QSize(300, 200));
+        QVERIFY(!dialog.intersects(drawing));
     }
 
     void aProblemSaysWhatToDoAndIsCopied()

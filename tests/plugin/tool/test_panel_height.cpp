@@ -1,6 +1,7 @@
 // The panel borrows height from the docks below it and gives it back.
 #include "tool/panel/borrowed_height.h"
 
+#include <QCloseEvent>
 #include <QMainWindow>
 #include <QScrollArea>
 #include <QtTest>
@@ -31,6 +32,7 @@ private Q_SLOTS:
         for (int place = 0; place < 4; ++place)
         {
             auto* dock = new QDockWidget(QStringLiteral("Dock %1").arg(place));
+            dock->setObjectName(dock->windowTitle());
             auto* content = new QScrollArea;
             content->setWidget(new QWidget);
             dock->setWidget(content);
@@ -77,6 +79,38 @@ private Q_SLOTS:
         height.giveBack();
         QCoreApplication::processEvents();
         QCOMPARE(heights(), before);
+    }
+
+    void onALowWindowThoseBelowBecomeTabsAndComeBack()
+    {
+        for (QDockWidget* dock : {mDocks[0], mDocks[2], mDocks[3]})
+            dock->widget()->setMinimumHeight(120);
+        mWindow.resize(700, 600);
+        QCoreApplication::processEvents();
+        const QVector<int> before = heights();
+        BorrowedHeight height;
+        height.borrow(*mPage, 500);
+        QCoreApplication::processEvents();
+        QCOMPARE(mWindow.tabifiedDockWidgets(mDocks[1]).size(), 2);
+        QVERIFY(!mPage->visibleRegion().isEmpty());
+        QTRY_VERIFY(mDocks[1]->height() > before[1] + 150);
+        mDocks[3]->close();
+        height.giveBack();
+        QCoreApplication::processEvents();
+        QVERIFY(mWindow.tabifiedDockWidgets(mDocks[1]).isEmpty());
+        QVERIFY(mDocks[2]->y() > mDocks[1]->y());
+        QVERIFY2(mDocks[3]->isHidden(), "the artist closed it");
+        mDocks[3]->show();
+        QTRY_COMPARE(heights(), before);
+        height.borrow(*mPage, 500);
+        QCloseEvent closing;
+        QCoreApplication::sendEvent(&mWindow, &closing);
+        QVERIFY(mWindow.tabifiedDockWidgets(mDocks[1]).isEmpty());
+        height.giveBack();
+        for (QDockWidget* dock : {mDocks[0], mDocks[2], mDocks[3]})
+            dock->widget()->setMinimumHeight(0);
+        mWindow.resize(700, 760);
+        mWindow.show();
     }
 
     void aFloatingDockIsLeftAlone()

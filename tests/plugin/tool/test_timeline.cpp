@@ -24,6 +24,7 @@ class TimelineTest : public QObject
 private:
     std::unique_ptr<FakeHost> mHost;
     std::unique_ptr<SceneDocument> mDocument;
+    std::unique_ptr<QAction> mSurfaces;
     std::unique_ptr<QAction> mRender;
     std::unique_ptr<LampPanel> mPanel;
     CanvasOverlay* mOverlay = nullptr;
@@ -54,8 +55,9 @@ private Q_SLOTS:
         mHost = std::make_unique<FakeHost>();
         mDocument = std::make_unique<SceneDocument>();
         mDocument->reset(sceneWithLight(200, 150, 200));
+        mSurfaces = std::make_unique<QAction>();
         mRender = std::make_unique<QAction>();
-        mPanel = std::make_unique<LampPanel>(*mHost, *mDocument, *mRender);
+        mPanel = std::make_unique<LampPanel>(*mHost, *mDocument, *mSurfaces, *mRender);
         mPanel->resize(200, 500);
         mPanel->show();
         mOverlay = new CanvasOverlay(*mHost, *mDocument);
