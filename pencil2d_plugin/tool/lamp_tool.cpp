@@ -10,6 +10,7 @@
 #include "tool/depth/cut_menu.h"
 #include "tool/materials/materials_dock.h"
 #include "tool/panel/lamp_panel.h"
+#include "tool/panel/light_links.h"
 #include "tool/panel/rig_menu.h"
 
 #include <utility>
@@ -373,6 +374,11 @@ void LampTool::setPalette(const QVector<Swatch>& swatches)
     mColours.setSwatches(swatches);
     if (mMaterials)
         mMaterials->setPalette(swatches);
+    QStringList colours;
+    for (const Swatch& swatch : swatches)
+        colours << swatch.colour;
+    if (auto* links = mPanel ? mPanel->findChild<LightLinks*>() : nullptr)
+        links->setColours(colours);
 }
 
 void LampTool::setProgress(const QString& doing, int done, int total)

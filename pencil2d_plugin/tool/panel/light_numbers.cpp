@@ -2,6 +2,7 @@
 
 #include "scene/temperature.h"
 #include "scene/timeline.h"
+#include "tool/panel/light_links.h"
 #include "tool/panel/section.h"
 
 #include <QHBoxLayout>
@@ -122,6 +123,7 @@ QWidget* LightNumbers::more()
     mShadow->setObjectName(named("light.shadow"));
     mShadow->setToolTip(tr("Without shadows a light fills: it brightens, and nothing stands in its way"));
     section->body()->addWidget(mShadow);
+    section->body()->addWidget(new LightLinks(mHost, mDocument, this));
     return section;
 }
 

@@ -4,6 +4,7 @@
 #include "tool/panel/colour_button.h"
 #include "tool/panel/elided_label.h"
 #include "tool/panel/lamp_panel.h"
+#include "tool/panel/light_links.h"
 #include "tool/panel/rig_menu.h"
 #include "tool/panel/value_row.h"
 
@@ -213,6 +214,33 @@ private Q_SLOTS:
         QVERIFY(!light().castsShadow);
         mDocument->undoStack()->undo();
         QVERIFY(find<QCheckBox>("light.shadow")->isChecked());
+    }
+
+    void aLightIsTiedToLayersColoursAndTheDrawing()
+    {
+        mPanel->findChild<LightLinks*>()->setColours({QStringLiteral("#dd3f2e")});
+        const auto choose = [this](const char* button, const QString& entry)
+        {
+            QMenu* menu = find<QToolButton>(button)->menu();
+            Q_EMIT menu->aboutToShow();
+            const auto entries = menu->actions();
+            for (QAction* action : entries)
+                if (action->text() == entry)
+                    return action->trigger();
+            QFAIL(qPrintable(entry));
+        };
+        choose("light.layers", QStringLiteral("Line"));
+        QCOMPARE(light().layers, QStringList{QStringLiteral("Line")});
+        choose("light.colours", QStringLiteral("#dd3f2e"));
+        QCOMPARE(light().colours, QStringList{QStringLiteral("#dd3f2e")});
+        choose("light.layers", QStringLiteral("All"));
+        QVERIFY(light().layers.isEmpty());
+        mHost->mFrame = 4;
+        find<QCheckBox>("light.pinned")->click();
+        QCOMPARE(light().pin->frame, 4);
+        QCOMPARE(light().pin->x, light().x);
+        mDocument->undoStack()->undo();
+        QVERIFY(!light().pin && !find<QCheckBox>("light.pinned")->isChecked());
     }
 
     void aSwitchedLightKeepsItsKeys()

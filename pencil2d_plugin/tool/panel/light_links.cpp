@@ -1,0 +1,163 @@
+#include "tool/panel/light_links.h"
+
+#include "scene/layer_roles.h"
+#include "scene/timeline.h"
+#include "tool/canvas/lamp_menu.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+namespace lampblack
+{
+
+namespace
+{
+constexpr int SwatchSide = 14;
+}
+
+LightLinks::LightLinks(Host& host, SceneDocument& document, QWidget* parent)
+    : QWidget(parent), mHost(host), mDocument(document),
+      mPinned(new QCheckBox(tr("Moves with the drawing"), this))
+{
+    auto* rows = new QVBoxLayout(this);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(3);
+    mLitLayers = addChoice("light.layers", tr("Lights layers"),
+                           tr("Only these layers take this light: a lamp for a face, and not for the hills"),
+                           &AreaLight::layers);
+    mLitColours =
+        addChoice("light.colours", tr("Lights colours"),
+                  tr("Only these colours take this light: a glint for the eyes"), &AreaLight::colours);
+    mPinned->setObjectName(QStringLiteral("lampblack.panel.light.pinned"));
+    mPinned->setToolTip(
+        tr("The light stays with what is drawn beneath it at this frame, such as a lantern in a "
+           "hand, and follows it through the shot"));
+    rows->addWidget(mPinned);
+    connect(mPinned, &QCheckBox::clicked, this, &LightLinks::setPinned);
+    connect(&document, &SceneDocument::sceneChanged, this, &LightLinks::refresh);
+    connect(&document, &SceneDocument::selectionChanged, this, &LightLinks::refresh);
+    refresh();
+}
+
+QToolButton* LightLinks::addChoice(const char* name, const QString& label, const QString& hint,
+                                   QStringList AreaLight::*field)
+{
+    auto* button = new QToolButton(this);
+    button->setObjectName(QStringLiteral("lampblack.panel.") + QLatin1String(name));
+    button->setToolTip(hint);
+    button->setAccessibleName(label);
+    button->setPopupMode(QToolButton::InstantPopup);
+    button->setFocusPolicy(Qt::StrongFocus);
+    auto* menu = new QMenu(button);
+    button->setMenu(menu);
+    connect(menu, &QMenu::aboutToShow, this,
+            [this, menu, field] { fill(*menu, field == &AreaLight::layers ? layers() : mColours, field); });
+    auto* row = new QHBoxLayout;
+    row->addWidget(new QLabel(label, this));
+    row->addStretch(1);
+    row->addWidget(button);
+    static_cast<QVBoxLayout*>(layout())->addLayout(row);
+    return button;
+}
+
+void LightLinks::fill(QMenu& menu, const QStringList& all, QStringList AreaLight::*field)
+{
+    menu.clear();
+    const AreaLight* light = selected();
+    if (light == nullptr)
+        return;
+    const QStringList chosen = light->*field;
+    QAction* everything = menu.addAction(tr("All"));
+    everything->setCheckable(true);
+    everything->setChecked(chosen.isEmpty());
+    connect(everything, &QAction::triggered, this,
+            [this, field] { change(tr("Light All"), [field](AreaLight& each) { (each.*field).clear(); }); });
+    menu.addSeparator();
+    QStringList names = all;
+    for (const QString& name : chosen) // also those that are not in this frame
+        if (!names.contains(name))
+            names << name;
+    for (const QString& name : qAsConst(names))
+    {
+        QAction* entry = menu.addAction(name);
+        entry->setCheckable(true);
+        entry->setChecked(chosen.contains(name));
+        if (field == &AreaLight::colours)
+            entry->setIcon(colourIcon(QColor(name), SwatchSide, devicePixelRatioF()));
+        connect(entry, &QAction::triggered, this,
+                [this, field, name](bool on)
+                {
+                    change(tr("Change What a Light Lights"),
+                           [&](AreaLight& each)
+                           {
+                               (each.*field).removeAll(name);
+                               if (on)
+                                   (each.*field) << name;
+                           });
+                });
+    }
+}
+
+QStringList LightLinks::layers() const
+{
+    QStringList names;
+    const LayerRoles roles = mDocument.layerRoles();
+    const QVector<Layer> all = mHost.layers();
+    for (const Layer& layer : all)
+    {
+        const bool isDrawing = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
+        if (isDrawing && !isResult(layer.name, roles))
+            names << layer.name;
+    }
+    return names;
+}
+
+void LightLinks::refresh()
+{
+    const AreaLight* light = selected();
+    const auto say = [](const QStringList& chosen)
+    {
+        return chosen.isEmpty() ? tr("all") : tr("%1 chosen").arg(chosen.size());
+    };
+    mLitLayers->setText(say(light ? light->layers : QStringList()));
+    mLitColours->setText(say(light ? light->colours : QStringList()));
+    mPinned->setChecked(light != nullptr && light->pin.has_value());
+    mPinned->setEnabled(light != nullptr && light->kind == LightKind::Lamp);
+}
+
+void LightLinks::setPinned(bool pinned)
+{
+    const int frame = mHost.currentFrame();
+    change(pinned ? tr("Pin Light") : tr("Unpin Light"),
+           [&](AreaLight& light)
+           {
+               light.pin.reset();
+               if (!pinned)
+                   return;
+               const AreaLight shown = lightAt(light, frame);
+               Pin pin;
+               pin.frame = frame;
+               pin.x = shown.x;
+               pin.y = shown.y;
+               light.pin = pin;
+           });
+}
+
+void LightLinks::change(const QString& text, const std::function<void(AreaLight&)>& apply)
+{
+    Scene scene = mDocument.scene();
+    if (selected() == nullptr)
+        return;
+    apply(scene.lights[mDocument.selectedLight()]);
+    mDocument.edit(text, scene);
+}
+
+const AreaLight* LightLinks::selected() const
+{
+    const int light = mDocument.selectedLight();
+    const QVector<AreaLight>& lights = mDocument.scene().lights;
+    return light < 0 || light >= lights.size() ? nullptr : &lights[light];
+}
+
+} // namespace lampblack
