@@ -11,7 +11,7 @@ from support.lamp import Canvas, keep, light_up, settled, sidecar
 from support.registration import luminance
 from support.window import Pencil2D, wait_until
 
-DEPTH = "lampblack.panel.view.depth"
+LIT, DEPTH = (f"lampblack.panel.view.{name}" for name in ("lit", "depth"))
 BAR = "lampblack.brush_bar"
 BELLY = [(270.0 + 4 * i, 500.0) for i in range(25)]
 """A stroke, pixels of the canvas."""
@@ -49,3 +49,4 @@ def test_a_stroke_shapes_the_surface_and_is_undone(window: Pencil2D, tmp_path: P
     assert bumped > plain + 0.01
     assert abs(above() - plain) < 0.003
     window.click(f"{BAR}.step")
+    window.click(LIT)  # the window is shared: the next test finds its view as it was
