@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -104,7 +104,8 @@ def test_selecting_and_deselecting(window: Pencil2D, plain: float) -> None:
     with staying_lit(window, plain):
         window.trigger("actionSelect_All")
         window.trigger("actionDeselect_All")
-        wait_until(lambda: not is_ready(window), "the drawing to be read again", 10)
+        with suppress(AssertionError):  # a fast machine reads it again between two looks
+            wait_until(lambda: not is_ready(window), "the drawing to be read again", 5)
         wait_until(lambda: is_ready(window), "the light", 30)
         settled(window)
     keep(window, "deselected")
@@ -115,9 +116,16 @@ def test_saving_under_another_name(window: Pencil2D, plain: float, tmp_path: Pat
         window.trigger("actionSave_as")
         dialog = wait_until(lambda: window.of_class("QFileDialog"), "the file dialog")
         assert dialog["seen"]
-        window.display.do("type", "--delay", "5", str(tmp_path / "other.pclx"))
-        window.key("Return")
-        wait_until((tmp_path / "other.pclx").exists, "the file")
+        other = tmp_path / "other.pclx"
+
+        def saved() -> bool:
+            """Keys may come before the dialog has the focus."""
+            if not other.exists():
+                window.set("fileNameEdit", "text", str(other))
+                window.key("Return")
+            return other.exists()
+
+        wait_until(saved, "the file")
         wait_until(lambda: not window.of_class("QFileDialog"), "the end of the dialog")
         wait_until(lambda: is_ready(window), "the light", 30)
         settled(window)
@@ -161,9 +169,11 @@ def test_undoing_a_stroke(window: Pencil2D, plain: float) -> None:
     for _ in window.drag([canvas.screen(100 + 4 * i, 680) for i in range(30)]):
         pass
     light_up(window)
+    settled(window)
+    drawn = canvas.crop(100, 670, 120, 20)
     with staying_lit(window, plain):
         window.trigger("actionUndo")
-        wait_until(lambda: not is_ready(window), "the drawing to be read again", 10)
+        wait_until(lambda: (canvas.crop(100, 670, 120, 20) != drawn).any(), "the stroke to go")
         settled(window)
 
 
