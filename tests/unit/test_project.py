@@ -473,3 +473,14 @@ def test_reading_a_project_writes_nothing_beside_it(tmp_path: Path) -> None:
     unlit(shot_of(path, ROLES))
     assert files(tmp_path) == {"walk.pclx"}
     assert path.read_bytes() == before
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_entries_of_one_name_count_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lampblack.project.archive.MAX_ENTRIES", 5)
+    path = write_project(tmp_path / "w.pclx", document([BALL]), FILES)
+    with zipfile.ZipFile(path, "a") as archive:
+        for _ in range(5):
+            archive.writestr("data/ball.png", b"")
+    with pytest.raises(ProjectError, match="more than 5"):
+        read_project(path)

@@ -74,9 +74,9 @@ class _Zipped:
                 "Restore it from a backup. A program that repairs zip files may save some of it.",
                 str(error),
             ) from error
-        self._names = frozenset(self._zip.namelist())
-        if len(self._names) > MAX_ENTRIES:
+        if len(self._zip.namelist()) > MAX_ENTRIES:
             raise ProjectError(f"{path} holds more than {MAX_ENTRIES} files.")
+        self._names = frozenset(self._zip.namelist())
 
     def xml(self) -> bytes:
         if self._description not in self._names:
