@@ -68,7 +68,7 @@ def test_a_job_names_files_and_folders_that_exist(run: Run, tmp_path: Path) -> N
     (tmp_path / "seq").mkdir()
     for number in (1, 2):
         save_picture(tmp_path / "seq" / f"w.{number:04d}.png", draw_ball(64))
-    words = ("-o", tmp_path / "job.yaml", "--to", tmp_path / "lit")
+    words = ("-o", tmp_path / "job.yaml", "--to", tmp_path / "lit.v2")
     for source in ("seq", "seq/w.%04d.png", "seq/w.0001.png"):
         assert run("job", tmp_path / source, *words).code == 0
         template = yaml.safe_load((tmp_path / "job.yaml").read_text())
@@ -79,7 +79,7 @@ def test_a_job_names_files_and_folders_that_exist(run: Run, tmp_path: Path) -> N
         }
         single = source.endswith("1.png")
         assert paths["Input"] == (("FILE", source) if single else ("DIRECTORY", "seq"))
-        assert paths["Output"] == ("DIRECTORY", "lit")
+        assert paths["Output"] == ("DIRECTORY", "lit.v2")
     (step,) = template["steps"]
     assert "{{Param.Input}}" in step["script"]["actions"]["onRun"]["args"]
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import msgspec
 
+from ..choices import FileFormat
 from ..drawing.sequence import frame_list
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
@@ -16,6 +17,7 @@ from ..finals.targets import NUMBERED
 
 VERSION = "jobtemplate-2023-09"
 FRAMES = "{{Task.Param.Frames}}"
+_WRITTEN = tuple(f".{kind}" for kind in get_args(FileFormat))
 
 _FILES = {"Scene": "scene", "DepthHints": "depth_hints", "Mask": "mask", "Ink": "ink"}
 """Parameters of a template that are files, and their fields in the settings."""
@@ -125,7 +127,8 @@ class _Path:
     @property
     def is_folder(self) -> bool:
         """Also of a folder that is still to be made."""
-        return bool(self.pattern) or self.file.is_dir() or not self.file.suffix
+        is_file = self.file.is_file() or self.file.suffix.lower() in _WRITTEN
+        return bool(self.pattern) or self.file.is_dir() or not is_file
 
 
 def _paths(settings: RenderSettings) -> dict[str, _Path]:
