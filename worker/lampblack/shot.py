@@ -128,6 +128,14 @@ class Shot(Protocol):
         composited with the layers around it and seen through the camera."""
 
 
+def by_number(frames: Sequence[ShotFrame]) -> dict[int, ShotFrame]:
+    """Frames by number; one without a number is counted by its position."""
+    return {
+        index if frame.number is None else frame.number: frame
+        for index, frame in enumerate(frames, start=1)
+    }
+
+
 def by_drawing(frames: Sequence[ShotFrame]) -> list[list[ShotFrame]]:
     """Frames grouped by drawing; groups and their frames keep their order."""
     groups: dict[str, list[ShotFrame]] = {}

@@ -10,7 +10,7 @@ from ..errors import LampblackError
 from ..hints import HintedDrawing, carry_hints, hint_frames
 from ..normals.temporal.temporal_filter import TemporalFilter
 from ..scene import Hint, Scene
-from ..shot import Shot, ShotFrame
+from ..shot import Shot, ShotFrame, by_number
 from .neighbours import NeighbourLoader
 
 
@@ -26,10 +26,7 @@ class HintLoader:
     _temporal_filter: TemporalFilter = field(default_factory=TemporalFilter)
 
     def __post_init__(self) -> None:
-        self._numbers = {
-            index + 1 if frame.number is None else frame.number: frame
-            for index, frame in enumerate(self.shot.frames)
-        }
+        self._numbers = by_number(self.shot.frames)
         self._first: dict[str, int] = {}
         for number, frame in self._numbers.items():
             self._first[frame.drawing] = min(number, self._first.get(frame.drawing, number))

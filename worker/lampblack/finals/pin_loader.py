@@ -9,7 +9,7 @@ from ..errors import LampblackError
 from ..normals.temporal.temporal_filter import TemporalFilter
 from ..pins import Offset, carried_place, followed, pins_of
 from ..scene import AreaLight, Pin, Scene
-from ..shot import Shot, ShotFrame
+from ..shot import Shot, ShotFrame, by_number
 from .neighbours import NeighbourLoader
 
 
@@ -25,10 +25,7 @@ class PinLoader:
     _temporal_filter: TemporalFilter = field(default_factory=TemporalFilter)
 
     def __post_init__(self) -> None:
-        self._numbers = {
-            index + 1 if frame.number is None else frame.number: frame
-            for index, frame in enumerate(self.shot.frames)
-        }
+        self._numbers = by_number(self.shot.frames)
         self._found: dict[tuple[Pin, str], Offset | None] = {}
 
     def followed(self, frame: ShotFrame, placed: Scene, scene: Scene) -> Scene:
