@@ -20,6 +20,7 @@ from lampblack.drawing import Drawing, save_picture
 from lampblack.pipeline import Pipeline
 from lampblack.render import LightPasses, Passes
 from lampblack.surface import Overlap
+from lampblack.surface_maker import SurfaceMaker
 from support.command_line import Outcome, Run
 from support.drawings import draw_ball
 from support.window import missing
@@ -126,12 +127,12 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         dark = np.zeros((1, 1, 3), np.float32)
         return Passes((), LightPasses(dark, dark))
 
-    def surface(
-        self: Pipeline, drawing: Drawing, *given: object
+    def height(
+        self: SurfaceMaker, drawing: Drawing, *given: object
     ) -> tuple[NDArray[np.float32], tuple[Overlap, ...]]:
         return np.zeros(drawing.mask.shape, np.float32), ()
 
-    monkeypatch.setattr(Pipeline, "surface", surface)
+    monkeypatch.setattr(SurfaceMaker, "height", height)
     monkeypatch.setattr("lampblack.prepared.PreparedDrawing.surface", lambda *given: None)
     monkeypatch.setattr(Pipeline, "light", light)
     monkeypatch.setattr(

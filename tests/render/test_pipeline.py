@@ -9,8 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from lampblack.drawing import decompose_drawing
-from lampblack.pipeline import MAX_SURFACE_PX, Pipeline, surface_step
+from lampblack.pipeline import Pipeline
 from lampblack.scene import Ambient, AreaLight, Scene, default_scene
+from lampblack.surface_maker import MAX_SURFACE_PX, surface_step
 from support.drawings import draw_ball
 
 
@@ -50,7 +51,7 @@ def test_large_pictures_are_solved_small_and_composited_whole(pipeline: Pipeline
     picture = draw_ball(300, canvas=size)
     drawing = decompose_drawing(picture)
     assert surface_step(drawing) == 2
-    assert pipeline.height(drawing).shape == (size // 2, size // 2)
+    assert pipeline.prepare(drawing).height.shape == (size // 2, size // 2)
     vertices = pipeline.prepare(drawing).relief(stride=2).vertices
     assert np.allclose(vertices[:, :2].mean(axis=0), size / 2, atol=2)
     assert np.ptp(vertices[:, 0]) == pytest.approx(240, abs=6)

@@ -144,7 +144,7 @@ def test_a_body_that_moves_as_a_whole_keeps_its_surface(tmp_path: Path) -> None:
         drawing = loader.drawing(frame)
         assert [body.name for body in drawing.bodies] == ["body", "arm"]
         pipeline.prepare(drawing, loader.neighbours(frame))
-        heights.append([pipeline.height(body.drawing) for body in drawing.bodies])
+        heights.append([pipeline.prepare(body.drawing).height for body in drawing.bodies])
         first = first or len(made)
     assert len(made) == first > 0  # each body was made once
     for later in heights[1:]:

@@ -41,9 +41,9 @@ def normals_of(settings: RenderSettings, numbers: list[int], cache: Path) -> dic
         neighbour_loader = NeighbourLoader(opened.shot, pipeline)
         frames = {frame.number: frame for frame in opened.frames}
         return {
-            number: pipeline.normals(
+            number: pipeline.surfaces.normals(
                 neighbour_loader.drawing(frames[number]),
-                neighbours=neighbour_loader.neighbours(frames[number]),
+                neighbour_loader.neighbours(frames[number]),
             )
             for number in numbers
         }
@@ -78,14 +78,14 @@ def test_neighbours_are_found_only_when_a_surface_is_made(
         # A blank frame is a cut: nothing is taken from it or from beyond it.
         found = neighbours.load()
         assert (len(found.before), len(found.after)) == (1, 1)
-        steady = pipeline.height(drawing, neighbours=neighbours)
+        steady = pipeline.prepare(drawing, neighbours).height
 
         def unneeded() -> object:
             raise AssertionError
 
         known = replace(neighbours, load=unneeded)
-        assert np.array_equal(pipeline.height(drawing, neighbours=known), steady)
-        assert not np.array_equal(pipeline.height(drawing), steady)
+        assert np.array_equal(pipeline.prepare(drawing, known).height, steady)
+        assert not np.array_equal(pipeline.prepare(drawing).height, steady)
 
 
 def test_a_drawing_on_its_own_has_no_neighbours(tmp_path: Path) -> None:

@@ -5,17 +5,22 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
-import zipfile
-from collections.abc import Callable
+import stat
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save
 
 from .atomic import atomic_file
 from .errors import OutputError
 
 MAX_BYTES = 2 << 30
+_SUFFIX = ".safetensors"
+
+Arrays = dict[str, NDArray[np.float32]]
 
 
 def digest(*parts: object) -> str:
@@ -40,39 +45,56 @@ def user_cache_folder() -> Path:
 class ArrayCache:
     """Keeps arrays across runs. The least recently used are deleted when the folder is too large.
 
-    A cache that cannot be read or written only costs time, so that is no error.
+    A cache that cannot be read or written only costs time, so that is no error. An entry is
+    believed only if it is, to the last byte, what was stored under its key, and if nobody else
+    may write to the folder.
     """
 
     def __init__(self, folder: Path, max_bytes: int = MAX_BYTES) -> None:
         self._folder = folder
         self._max_bytes = max_bytes
 
-    def get(self, key: str, make: Callable[[], NDArray[np.float32]]) -> NDArray[np.float32]:
-        """The array of ``key``. If it is missing, ``make`` computes it and it is stored."""
-        path = self._folder / f"{key}.npz"
-        try:
-            with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-                array: NDArray[np.float32] = archive["array"].astype(np.float32)
-            with contextlib.suppress(OSError):
-                os.utime(path)
-            return array
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-            array = make()
+    def get(self, key: str, make: Callable[[], Arrays]) -> Arrays:
+        """The arrays of ``key``, float32, by name. If they are missing, ``make`` computes them and
+        they are stored."""
+        path = self._folder / f"{key}{_SUFFIX}"
+        stored = self._read(path, key)
+        if stored is not None:
+            return stored
+        arrays = make()
         with contextlib.suppress(OSError, OutputError):
-            self._put(path, array)
-        return array
+            self._put(path, key, arrays)
+        return arrays
 
-    def _put(self, path: Path, array: NDArray[np.float32]) -> None:
-        self._folder.mkdir(parents=True, exist_ok=True)
+    def _read(self, path: Path, key: str) -> Arrays | None:
+        try:
+            if not (_is_private(self._folder) and stat.S_ISREG(path.lstat().st_mode)):
+                return None
+            with safe_open(path, "numpy") as file:
+                names: list[str] = file.keys()
+                arrays: Arrays = {name: file.get_tensor(name) for name in names}
+                whole = (file.metadata() or {}).get("digest") == _entry_digest(key, arrays)
+            if not whole:
+                return None
+            os.utime(path)
+        except (OSError, SafetensorError, ValueError, KeyError, TypeError):
+            return None
+        return arrays
+
+    def _put(self, path: Path, key: str, arrays: Arrays) -> None:
+        self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not _is_private(self._folder):
+            return
         with atomic_file(path) as file:
-            np.savez(file, array=array)
+            metadata = {"digest": _entry_digest(key, arrays)}
+            file.write(save({n: np.ascontiguousarray(a) for n, a in arrays.items()}, metadata))
         self._trim()
 
     def _trim(self) -> None:
         entries = sorted(
             (status.st_mtime, status.st_size, path)
-            for path in self._folder.glob("*.npz")
-            if (status := path.stat())
+            for path in self._folder.iterdir()
+            if stat.S_ISREG((status := path.lstat()).st_mode)
         )
         excess = sum(size for _, size, _ in entries) - self._max_bytes
         for _, size, path in entries:
@@ -80,6 +102,18 @@ class ArrayCache:
                 return
             path.unlink(missing_ok=True)
             excess -= size
+
+
+def _entry_digest(key: str, arrays: Mapping[str, NDArray[np.float32]]) -> str:
+    return digest(key, *(part for name in sorted(arrays) for part in (name, arrays[name])))
+
+
+def _is_private(folder: Path) -> bool:
+    """Whether only this user can have put files into it."""
+    if os.name != "posix":
+        return True
+    found = folder.stat()
+    return found.st_uid == os.geteuid() and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 def surface_cache() -> ArrayCache:

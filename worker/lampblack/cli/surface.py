@@ -54,7 +54,7 @@ def normals(
         )
         groups = by_drawing(shot.frames)
         for frames, drawing in each_drawing(shot, groups, "Predicting", around.drawing):
-            found = pipeline.normals(drawing, neighbours=around.neighbours(frames[0]))
+            found = pipeline.surfaces.normals(drawing, around.neighbours(frames[0]))
             for frame in frames:
                 if targets.kind == "npy":
                     with atomic_file(targets.path(frame)) as file:

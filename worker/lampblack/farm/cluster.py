@@ -146,7 +146,7 @@ def _resolved(settings_json: bytes, run: str) -> ResolvedJob:
 
 def _warm_pipeline(options: PipelineOptions) -> Pipeline:
     """The worker's pipeline, kept between tasks; its renderer ends with the worker."""
-    if _pipelines and _pipelines[0].options != options:
+    if _pipelines and _pipelines[0].surfaces.options != options:
         _pipelines.pop().close()
     if not _pipelines:
         _pipelines.append(Pipeline(surface_cache(), options))

@@ -123,7 +123,7 @@ class NeighbourLoader:
             drawing = self.drawing(self._frames[name])
             if body:
                 drawing = next(b.drawing for b in drawing.bodies if b.name == body)
-            self._small[key] = self._pipeline.thumbnail(drawing)
+            self._small[key] = self._pipeline.surfaces.thumbnail(drawing)
             if len(self._small) > _KEPT:
                 self._small.popitem(last=False)
         self._small.move_to_end(key)

@@ -196,7 +196,7 @@ class Jobs:
             single=False,
             reach=REACH,
             targets=targets,
-            options=self.pipeline.options,
+            options=self.pipeline.surfaces.options,
             again=not message.keep_finished,
         )
 

@@ -28,7 +28,8 @@ from lampblack.normals.temporal.carry import carry_points
 from lampblack.normals.temporal.neighbours import REACH
 from lampblack.normals.temporal.temporal_filter import LazyNeighbours, Neighbours, TemporalFilter
 from lampblack.normals.temporal.thumbnail import RegistrationThumbnail
-from lampblack.pipeline import Pipeline, surface_step
+from lampblack.pipeline import Pipeline
+from lampblack.surface_maker import surface_step
 
 from ..dataset.models import find_models
 from ..evaluation.depth_figures import mean_known
@@ -119,7 +120,7 @@ def _drawn(pipeline: Pipeline, inputs: list[str]) -> Iterator[Drawn]:
     shot = resolve_shot(RenderSettings(inputs=tuple(inputs), output=""))
     shown = [list(frames) for _, frames in groupby(shot.frames, lambda frame: frame.drawing)]
     for _, drawing in each_drawing(shot, shown, "Predicting"):
-        yield pipeline.thumbnail(drawing), drawing
+        yield pipeline.surfaces.thumbnail(drawing), drawing
 
 
 def _in_context(drawn: Iterator[Drawn]) -> Iterator[tuple[Drawn, Neighbours]]:

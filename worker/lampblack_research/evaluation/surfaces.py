@@ -17,7 +17,7 @@ from lampblack.drawing import Drawing
 from lampblack.drawing.palette import Palette, Swatch
 from lampblack.normals.card import load_network
 from lampblack.normals.predict import NormalPredictor
-from lampblack.pipeline import MAX_SURFACE_PX, Pipeline
+from lampblack.pipeline import Pipeline
 from lampblack.surface import (
     Relief,
     build_relief,
@@ -26,6 +26,7 @@ from lampblack.surface import (
     solve,
     solve_with_overlaps,
 )
+from lampblack.surface_maker import MAX_SURFACE_PX
 
 from ..dataset.gbuffer import MARGIN
 from .clicks import worst_overlap

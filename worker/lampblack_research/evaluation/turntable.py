@@ -84,7 +84,7 @@ def turntable(
     with TemporaryDirectory(prefix="lampblack-") as folder:
         pipeline = Pipeline(ArrayCache(Path(folder)), predictor=predictor)
         drawn = [ink_drawing(view.lines, view.seen.mask) for view in turned]
-        small = [pipeline.thumbnail(drawing) for drawing in drawn]
+        small = [pipeline.surfaces.thumbnail(drawing) for drawing in drawn]
         heights = {
             "truth": [view.seen.depth for view in turned],
             "predicted": [pipeline.prepare(drawing).height for drawing in drawn],
