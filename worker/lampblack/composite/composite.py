@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..drawing import Drawing
 from ..render.passes import Passes
 from ..scene import Scene
-from .byte_kernel import composite_bytes
+from .byte_composite import composite_bytes
 from .byte_layers import ByteLayers
 from .float_kernel import composite_float
 from .illumination import Illumination

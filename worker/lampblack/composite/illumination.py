@@ -15,7 +15,8 @@ from ..colour import hex_linear
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene, shining
 from .linking import Link
-from .resample import Band, Box, enlarge
+from .resample import Box
+from .sums import add_up
 
 VEIL = np.float32(0.1)
 """Share of the ambient light that glossy paint reflects: of a varnish seen from the front, 0.04."""
@@ -31,8 +32,6 @@ Floats = NDArray[np.float32]
 Weighted = tuple[Floats, Floats, Floats]
 """The weight of a source, (3,) scene-linear, and its two passes, (h, w, 3): diffuse and glossy
 light of the character, or the floor's light with the character and without it."""
-
-_DARK = np.zeros((1, 1, 3), np.float32)
 
 
 class Source(NamedTuple):
@@ -164,16 +163,3 @@ def glow_weight(glow: GlowName, scene: Scene) -> Floats:
     """(3,), the weight of light that comes from surfaces, as it is traced."""
     emitted, painted = scene.brightest * EMITTED, scene.painted_light.power * PAINT
     return np.full(3, emitted if glow == "emission" else painted, np.float32)
-
-
-def add_up(weighted: Sequence[tuple[Floats, Floats]]) -> Floats:
-    """The sum of (3,) weights times (h, w, 3) pictures of the same area, at the largest size."""
-    if not weighted:
-        return _DARK
-    height = max(picture.shape[0] for _, picture in weighted)
-    width = max(picture.shape[1] for _, picture in weighted)
-    band = Band(width, height, 0, height)
-    total = np.zeros((height, width, 3), np.float32)
-    for weight, picture in weighted:
-        total += weight * enlarge(picture, band)
-    return total

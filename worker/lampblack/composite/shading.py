@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ..materials import MaterialTable
 from ..scene import Scene
+from .blur import blurred
 from .illumination import Illumination
 from .linking import Link
 from .resample import Box
@@ -78,6 +78,6 @@ class Shading:
 def _contact(openness: Floats, strength: float, scene: Scene, area: Box) -> Floats:
     longest = max(scene.canvas.width, scene.canvas.height)
     blur = max(0.5, 0.001 * longest * openness.shape[1] / area[2])
-    light = ndimage.gaussian_filter(openness.mean(axis=2), blur, mode="nearest", truncate=3)
+    light = blurred(openness @ np.full(3, 1 / 3, np.float32), blur)
     share = np.clip((light - CLOSED) / (OPEN - CLOSED), 0, 1)
     return np.asarray(1 - strength * (1 - share[..., None]), np.float32)

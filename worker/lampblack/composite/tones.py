@@ -13,25 +13,23 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ..colour import hex_linear
 from ..compiled import compiled
-from ..drawing.morphology import highest
 from ..scene import Look, Scene
+from .blur import blurred
 from .full_light import exposure, full_light, hue_of_lights, reach_of_light
-from .illumination import Illumination, add_up
+from .illumination import Illumination
+from .islands import without_islands
 from .linking import Link
 from .resample import Band, Box, enlarge
 from .spline import refined
+from .sums import add_up, brightest_of
 
 SMOOTHING = 0.003
 """Deviation of the smoothing, as a share of the canvas's longer side."""
 ISLAND = 0.022
 """Side of the smallest island of a tone, as a share of the canvas's longer side."""
-MOST_ISLANDS = 60
-MARGIN = 0.25
-"""Islands are sought a little beyond a threshold too, by this share of it."""
 FAINT = np.float32(0.02)
 MOST = 3
 """How often light is enlarged at most, along each side, before the rest is interpolated."""
@@ -83,11 +81,11 @@ def tones_of(
     element = max(area[2] / width, area[3] / height)
     longest = max(scene.canvas.width, scene.canvas.height)
     blur = max(0.6, SMOOTHING * longest / element)
-    brightest = np.maximum(np.maximum(direct[..., 0], direct[..., 1]), direct[..., 2])
+    brightest = brightest_of(direct)
     reach = reach_of_light(scene, area, (height, width)) if full_light(scene) > 0 else full
     lows, highs = steps(look)
     if full > 0:
-        amount = _blurred(brightest / reach, blur)
+        amount = blurred(brightest / reach, blur)
         amount = without_islands(amount, lows, highs, round((ISLAND * longest / element) ** 2))
     else:
         amount = np.ones((height, width), np.float32)
@@ -110,7 +108,7 @@ def tones_of(
     mirrored = np.zeros((1, 1), np.float32)
     if shine and full > 0:
         glossy = add_up([(weight, light) for weight, _, light in illumination.character])
-        mirrored = refined(_blurred(glossy.max(axis=2) / full, blur), factor)
+        mirrored = refined(blurred(brightest_of(glossy) / full, blur), factor)
     return Tones(
         amount=refined(np.ascontiguousarray(amount, np.float32), factor),
         shine=mirrored,
@@ -133,9 +131,9 @@ def toned_part(light: Floats, link: Link, scene: Scene, area: Box) -> Floats:
     height, width = light.shape[:2]
     element = max(area[2] / width, area[3] / height)
     longest = max(scene.canvas.width, scene.canvas.height)
-    brightest = light.max(axis=2)
+    brightest = brightest_of(light)
     reach = reach_of_light(scene, area, (height, width), link)
-    amount = _blurred(brightest / reach, max(0.6, SMOOTHING * longest / element))
+    amount = blurred(brightest / reach, max(0.6, SMOOTHING * longest / element))
     lows, highs = steps(scene.look if scene.look.tones else CEL)
     smallest = round((ISLAND * longest / element) ** 2)
     fine = refined(without_islands(amount, lows, highs, smallest), MOST if element > 1 else 1)
@@ -159,8 +157,8 @@ def toned_floor(ratio: Floats, scene: Scene) -> Floats:
     tint = hex_linear(scene.look.shade_colour)
     shade = dark + np.float32(scene.look.shade_strength) * (tint - dark)
     least = np.float32(dark.max())
-    light = np.clip((ratio.max(axis=2) - least) / (1 - least), 0, 1)
-    fine = refined(ndimage.gaussian_filter(light, 0.8, mode="nearest"), 4)
+    light = np.clip((brightest_of(ratio) - least) / (1 - least), 0, 1)
+    fine = refined(blurred(light, 0.8), 4)
     share = np.empty_like(fine)
     look = scene.look
     width = look.softness * FLOOR_TONE
@@ -175,38 +173,6 @@ def steps(look: Look) -> tuple[Floats, Floats]:
     half = np.float32(look.softness / 2)
     low, high = np.maximum(at - half, 0), at + half
     return (low * low).astype(np.float32), (high * high).astype(np.float32)
-
-
-def without_islands(amount: Floats, lows: Floats, highs: Floats, smallest: int) -> Floats:
-    """``amount``, (h, w), without the regions of fewer than ``smallest`` elements that a step
-    cuts out."""
-    found = amount
-    for low, high in zip(lows, highs, strict=True):
-        # Also what nearly crosses the step: it would be seen as a ghost.
-        bright, dark = (high, low * (1 - MARGIN)), (low, high * (1 + MARGIN))
-        levels = [*((level, True) for level in bright), *((level, False) for level in dark)]
-        for level, lit in levels:
-            regions, count = ndimage.label(found > level if lit else found < level)
-            small = np.bincount(regions.ravel(), minlength=count + 1) < smallest
-            small[0] = False
-            if small.any():
-                found = found.copy() if found is amount else found
-                boxes = ndimage.find_objects(regions)
-                for number in np.flatnonzero(small)[:MOST_ISLANDS]:
-                    _flood(found, regions, number, boxes[number - 1])
-    return found
-
-
-def _flood(
-    amount: Floats, regions: NDArray[np.int32], number: int, box: tuple[slice, slice]
-) -> None:
-    """Give the island ``number`` of ``regions`` the light around it."""
-    window = tuple(slice(max(0, side.start - 3), side.stop + 3) for side in box)
-    island = regions[window] == number
-    shore = highest(island, 1)
-    around = highest(shore, 2) & ~shore
-    if around.any():
-        amount[window][shore] = np.median(amount[window][around])
 
 
 def tone_shares(tones: Tones, band: Band) -> Floats:
@@ -235,11 +201,6 @@ def _tint(
             share = full / (brightest[row, column] + faint)
             for c in range(3):
                 lit[row, column, c] = ambient[c] + share * (direct[row, column, c] + faint * hue[c])
-
-
-def _blurred(plane: Floats, deviation: float) -> Floats:
-    found: Floats = ndimage.gaussian_filter(plane, deviation, mode="nearest", truncate=3)
-    return found
 
 
 @compiled

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..composite import composite
-from ..composite.byte_kernel import warm_up
+from ..composite.byte_composite import warm_up
 from ..composite.byte_layers import ByteLayers, cut_picture
 from ..composite.edges import reach_of
 from ..composite.illumination import Illumination
