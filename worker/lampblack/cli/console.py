@@ -76,6 +76,15 @@ def for_people() -> Iterator[None]:
     except LampblackError as error:
         print_error(error)
         sys.exit(EXIT_FAILED)
+    except OSError as error:
+        print_error(
+            LampblackError(
+                f"The system refused: {error.strerror or error}.",
+                "Check the names and folders that you gave.",
+                f"{error.filename or ''}"[:300],
+            )
+        )
+        sys.exit(EXIT_FAILED)
     except MemoryError:
         print_error(LampblackError("There is not enough memory.", "Close other programs."))
         sys.exit(EXIT_FAILED)

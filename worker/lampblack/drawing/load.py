@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import struct
 import warnings
+import zlib
 from pathlib import Path
 from typing import BinaryIO
 
@@ -21,10 +23,13 @@ from PIL.WebPImagePlugin import WebPImageFile
 
 from ..atomic import atomic_file
 from ..errors import DrawingError, LampblackWarning
+from ..files import open_regular, read_bounded, understood
 from .profile import to_srgb
 
 MAX_SIDE = 16384
 MAX_PIXELS = 40_000_000
+MAX_PICTURE_BYTES = 10 * MAX_PIXELS
+"""Of a picture file: 16 bits for each of four channels, uncompressed, and some room."""
 PICTURE_SUFFIXES = frozenset(
     (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".tga", ".bmp", ".gif")
 )
@@ -49,10 +54,17 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
     Raises:
         DrawingError: missing, a folder, not a picture, damaged, or too large.
     """
-    path = Path(path)
+    return read_picture(io.BytesIO(picture_bytes(Path(path))), str(path))
+
+
+def picture_bytes(path: Path) -> bytes:
+    """The bytes of a picture file, at most ``MAX_PICTURE_BYTES``.
+
+    Raises:
+        DrawingError: missing, a folder, too large, or not to be read.
+    """
     try:
-        with path.open("rb") as file:
-            return read_picture(file, str(path))
+        return read_bounded(path, MAX_PICTURE_BYTES)
     except FileNotFoundError as error:
         raise DrawingError(
             f"There is no picture at {path}.", "Check the name and the folder."
@@ -63,6 +75,12 @@ def load_picture(path: str | Path) -> NDArray[np.uint8]:
         raise DrawingError(
             f"There is no permission to read {path}.", "Check the file's permissions.", str(error)
         ) from error
+    except OSError as error:
+        raise DrawingError(
+            f"The picture {path} cannot be read.",
+            "Check its name, and that it is a file of ordinary size.",
+            str(error),
+        ) from error
 
 
 def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
@@ -71,8 +89,8 @@ def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
 
     Samples become 8-bit sRGB: an ICC profile, or the gamma of a PNG, is applied; see
     ``to_srgb``. A photograph is turned upright as its EXIF orientation says. The size is
-    checked before any pixel is decoded. Every checksum of a PNG must hold, so that a truncated
-    file is refused.
+    checked before any pixel is decoded. A PNG must have one header, and every checksum must hold,
+    so that a truncated file is refused.
 
     Returns:
         (H, W, 4) uint8, sRGB, straight alpha, row 0 at the top.
@@ -84,27 +102,38 @@ def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
         LampblackWarning: the file has more pictures than one; only the first is read.
     """
     try:
-        if file.read(len(_PNG)) == _PNG:
-            depth = _check_png_header(file, name)
-            _open_as(PngImageFile, file).verify()
-            image = _open_as(PngImageFile, file)
-        else:
-            depth, image = 8, _open_other(file, name)
-            _check_size(*image.size, name)
-        frames = getattr(image, "n_frames", 1)
-        if frames > 1:
-            warnings.warn(
-                f"{name} holds {frames} pictures; only the first is used.",
-                LampblackWarning,
-                stacklevel=2,
-            )
-        return _decode(image, depth, name)
-    except (OSError, SyntaxError, ValueError, struct.error, EOFError) as error:
-        raise DrawingError(f"The picture {name} is damaged.", _PLAIN_PNG, str(error)) from error
+        with understood(_damaged(name)):
+            if file.read(len(_PNG)) == _PNG:
+                depth, image = _check_png(file, name), _open_as(PngImageFile, file)
+            else:
+                depth, image = 8, _open_other(file, name)
+                _check_size(*image.size, name)
+            frames = getattr(image, "n_frames", 1)
+            if frames > 1:
+                warnings.warn(
+                    f"{name} holds {frames} pictures; only the first is used.",
+                    LampblackWarning,
+                    stacklevel=2,
+                )
+            return _decode(image, depth, name)
     except MemoryError as error:
         raise DrawingError(
             f"There is not enough memory to read {name}.", "Close other programs."
         ) from error
+
+
+def whole_png_text(path: Path) -> dict[str, str]:
+    """The text in a PNG whose pixels are there to the last byte; they are not decoded.
+
+    Raises:
+        DrawingError: it is no such file. OSError: it cannot be read.
+    """
+    with open_regular(path) as file, understood(_damaged(str(path))):
+        if file.read(len(_PNG)) != _PNG:
+            raise _damaged(str(path), "it is no PNG")
+        _check_png(file, str(path))
+        file.seek(0)
+        return dict(PngImageFile(file).text)
 
 
 def save_picture(path: str | Path, picture: NDArray[np.uint8]) -> None:
@@ -119,14 +148,36 @@ def save_picture(path: str | Path, picture: NDArray[np.uint8]) -> None:
         Image.fromarray(picture).save(file, "PNG", compress_level=4)
 
 
-def _check_png_header(file: BinaryIO, name: str) -> int:
-    """Check the size in the header that follows the signature. Returns the bits per sample."""
-    header = file.read(21)
-    if len(header) < 21 or header[4:8] != b"IHDR":
-        raise DrawingError(f"The picture {name} is damaged.", _PLAIN_PNG)
-    width, height, depth = struct.unpack(">IIB", header[8:17])
-    _check_size(width, height, name)
-    return int(depth)
+def _damaged(name: str, details: str = "") -> DrawingError:
+    return DrawingError(f"The picture {name} is damaged.", _PLAIN_PNG, details)
+
+
+def _check_png(file: BinaryIO, name: str) -> int:
+    """Check the chunks that follow the signature: one header with a size that can be read, some
+    pixels, an end, and every checksum. Returns the bits per sample."""
+    depth, kind, kinds = 0, b"", set[bytes]()
+    while kind != b"IEND":
+        start = file.read(8)
+        if len(start) < 8:
+            raise _damaged(name, "it has no end")
+        length, kind = struct.unpack(">I4s", start)
+        if (kind == b"IHDR") == bool(kinds) or (kind == b"IHDR" and length != 13):
+            raise _damaged(name, "it does not have one header")
+        kinds.add(kind)
+        checksum, left = zlib.crc32(kind), length
+        while left:
+            data = file.read(min(left, 1 << 20))
+            if not data:
+                raise _damaged(name, "it was cut short")
+            if kind == b"IHDR":
+                width, height, depth = struct.unpack(">IIB", data[:9])
+                _check_size(width, height, name)
+            checksum, left = zlib.crc32(data, checksum), left - len(data)
+        if file.read(4) != struct.pack(">I", checksum):
+            raise _damaged(name, f"the checksum of {kind!r} is wrong")
+    if b"IDAT" not in kinds:
+        raise _damaged(name, "it has no pixels")
+    return depth
 
 
 def _check_size(width: int, height: int, name: str) -> None:

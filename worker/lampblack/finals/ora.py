@@ -16,13 +16,16 @@ from PIL import Image
 from ..atomic import atomic_path
 from ..composite.apart import Layer
 from ..composite.blend import Blend
+from ..errors import LampblackError
+from ..files import open_regular, understood
 
 _OPERATORS: dict[Blend, str] = {
     "normal": "svg:src-over",
     "multiply": "svg:multiply",
     "add": "svg:plus",
 }
-_STAMP = "Lampblack "
+_STAMP, _END = "Lampblack ", "\n"
+"""Before and after the stamp: ``zipfile`` takes a comment that was cut short."""
 _THUMBNAIL_SIDE = 256
 
 
@@ -38,7 +41,7 @@ def save_ora(path: Path, layers: Sequence[Layer], merged: NDArray[np.uint8], sta
     thumbnail = Image.fromarray(merged)
     thumbnail.thumbnail((_THUMBNAIL_SIDE, _THUMBNAIL_SIDE))
     with atomic_path(path) as temporary, zipfile.ZipFile(temporary, "w") as archive:
-        archive.comment = f"{_STAMP}{stamp}".encode()
+        archive.comment = f"{_STAMP}{stamp}{_END}".encode()
         # First and not compressed, so that a reader knows the file by its first bytes.
         archive.writestr("mimetype", "image/openraster")
         for name, blend, picture in reversed(layers):
@@ -64,12 +67,19 @@ def save_ora(path: Path, layers: Sequence[Layer], merged: NDArray[np.uint8], sta
 def ora_stamp(path: Path) -> str | None:
     """The stamp of a complete file of ``save_ora``; None for anything else."""
     try:
-        with zipfile.ZipFile(path) as archive:
+        with (
+            open_regular(path) as file,
+            understood(LampblackError(f"{path} is damaged.")),
+            zipfile.ZipFile(file) as archive,
+        ):
             comment = archive.comment.decode()
-            sound = archive.testzip() is None
-    except (OSError, ValueError, zipfile.BadZipFile, EOFError, NotImplementedError):
+            own = comment.startswith(_STAMP) and comment.endswith(_END)
+            own &= all(info.compress_type == zipfile.ZIP_STORED for info in archive.infolist())
+            if not own or archive.testzip() is not None:
+                return None
+            return comment.removeprefix(_STAMP).removesuffix(_END)
+    except (OSError, LampblackError):
         return None
-    return comment.removeprefix(_STAMP) if sound and comment.startswith(_STAMP) else None
 
 
 def _cropped(picture: NDArray[np.uint8]) -> tuple[NDArray[np.uint8], tuple[int, int]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +13,9 @@ from numpy.typing import NDArray
 
 from ..cache import digest
 from ..camera import IDENTITY, Affine, on_canvas
-from ..drawing import Frame, load_picture
+from ..drawing import Frame, read_picture
+from ..drawing.load import picture_bytes
+from ..errors import DrawingError
 from ..scene import Canvas, Scene
 from ..shot import Cel, Picture, ShotFrame
 
@@ -31,14 +34,27 @@ class PictureShot:
 
     def __post_init__(self) -> None:
         self._paths = {source.path.name: source.path for source in self.sources}
-        given = digest(self.mask, self.ink)
+        self._given = digest(self.mask, self.ink)
         self.frames = [
-            ShotFrame(source.number, source.path.name, digest(given, _content(source.path)))
+            ShotFrame(source.number, source.path.name, self._identity(source.path))
             for source in self.sources
         ]
 
     def cel(self, frame: ShotFrame) -> Cel:
-        return Cel(load_picture(self._paths[frame.name]), self.mask, self.ink)
+        path = self._paths[frame.name]
+        data = picture_bytes(path)
+        if digest(self._given, data) != frame.drawing:
+            raise DrawingError(
+                f"{path} was changed while the shot was rendered.", "Render the shot again."
+            )
+        return Cel(read_picture(io.BytesIO(data), str(path)), self.mask, self.ink)
+
+    def _identity(self, path: Path) -> str:
+        """By the file's bytes, or by its name if it cannot be read: the error comes later."""
+        try:
+            return digest(self._given, picture_bytes(path))
+        except DrawingError:
+            return digest(self._given, bytes(path))
 
     def place(self, frame: ShotFrame, scene: Scene, size: tuple[int, int]) -> Scene:
         return on_canvas(scene, Canvas(*size))
@@ -48,11 +64,3 @@ class PictureShot:
 
     def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
         return lit
-
-
-def _content(path: Path) -> bytes:
-    """A digest of the file's bytes, or of its name if it cannot be read; the error comes later."""
-    try:
-        return path.read_bytes()
-    except OSError:
-        return bytes(path)

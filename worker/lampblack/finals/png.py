@@ -10,7 +10,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from ..atomic import atomic_file
-from ..drawing import load_picture
+from ..drawing.load import whole_png_text
 from ..errors import LampblackError
 
 STAMP = "Lampblack"
@@ -31,10 +31,6 @@ def save_png(path: Path, picture: NDArray[np.uint8], stamp: str) -> None:
 def png_stamp(path: Path) -> str | None:
     """The stamp of a complete PNG; None for any other file."""
     try:
-        with Image.open(path, formats=("PNG",)) as image:
-            stamp = image.info.get(STAMP)
-        if stamp is not None:
-            load_picture(path)
-        return stamp if isinstance(stamp, str) else None
-    except (OSError, ValueError, SyntaxError, LampblackError):
+        return whole_png_text(path).get(STAMP)
+    except (OSError, LampblackError):
         return None

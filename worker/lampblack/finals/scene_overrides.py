@@ -8,9 +8,11 @@ from pathlib import Path
 
 from ..choices import BodyChoice, QualityName
 from ..errors import SceneError
+from ..files import read_bounded
 from ..looks import with_style
 from ..rigs import with_rig
 from ..scene import (
+    MAX_JSON_BYTES,
     MAX_LIGHTS,
     AreaLight,
     Canvas,
@@ -87,7 +89,7 @@ def read_scene(path: Path) -> Scene:
         SceneError: it cannot be read, or is not a scene.
     """
     try:
-        return decode_scene(path.read_bytes())
+        return decode_scene(read_bounded(path, MAX_JSON_BYTES))
     except OSError as error:
         raise SceneError(
             f"The scene {path} cannot be read.", "Write one: lampblack scene.", str(error)
@@ -101,7 +103,7 @@ def read_depth_hints(path: Path) -> Depth:
         SceneError: it cannot be read, or holds something else.
     """
     try:
-        return decode_depth(path.read_bytes())
+        return decode_depth(read_bounded(path, MAX_JSON_BYTES))
     except OSError as error:
         raise SceneError(
             f"The hints {path} cannot be read.", "Check the file's name.", str(error)

@@ -7,6 +7,7 @@ from importlib import resources
 from pathlib import Path
 
 from ..errors import SceneError
+from ..files import read_bounded
 from ..scene import MAX_JSON_BYTES, Style, decode_style
 
 PRESETS = ("smooth", "soft-cel", "hard-cel", "two-tone-rim")
@@ -34,11 +35,14 @@ def find_style(named: str) -> Style:
     if (name := preset_name(named)) is not None:
         return preset(name)
     try:
-        with Path(named).open("rb") as file:
-            return decode_style(file.read(MAX_JSON_BYTES + 1))
-    except OSError as error:
+        return decode_style(read_bounded(Path(named), MAX_JSON_BYTES))
+    except FileNotFoundError as error:
         raise SceneError(
             f"There is no look {named[:200]!r}.",
             f"Name a file, or one of {', '.join(PRESETS)}.",
             str(error),
+        ) from error
+    except OSError as error:
+        raise SceneError(
+            f"The look {named[:200]!r} cannot be read: {error.strerror}.", "Name another file."
         ) from error

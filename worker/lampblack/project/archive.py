@@ -6,17 +6,20 @@ Nothing is unpacked. Names, sizes and counts are untrusted input, and all of the
 from __future__ import annotations
 
 import zipfile
-import zlib
 from pathlib import Path
 from typing import Protocol
 
 from ..errors import ProjectError
+from ..files import open_regular, understood
 
 ORA = ".ora"
 SUFFIXES = (".pclx", ".pcl", ORA)
 MAX_XML_BYTES = 16 << 20
 MAX_FILE_BYTES = 128 << 20
 MAX_ENTRIES = 200_000
+PACKINGS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+"""How the files of a zip may be packed: what paint programs use, and what is unpacked bit by bit.
+Of the others, one small file may fill the memory before its size is known."""
 
 
 class Archive(Protocol):
@@ -66,14 +69,12 @@ class _Zipped:
     def __init__(self, path: Path, description: str) -> None:
         self.path = path
         self._description = description
-        try:
+        cut_short = ProjectError(
+            f"{path} cannot be opened: it was cut short, or it is no project.",
+            "Restore it from a backup. A program that repairs zip files may save some of it.",
+        )
+        with understood(cut_short):
             self._zip = zipfile.ZipFile(path)
-        except (zipfile.BadZipFile, OSError, ValueError, UnicodeDecodeError) as error:
-            raise ProjectError(
-                f"{path} cannot be opened: it was cut short, or it is no project.",
-                "Restore it from a backup. A program that repairs zip files may save some of it.",
-                str(error),
-            ) from error
         if len(self._zip.namelist()) > MAX_ENTRIES:
             raise ProjectError(f"{path} holds more than {MAX_ENTRIES} files.")
         self._names = frozenset(self._zip.namelist())
@@ -106,20 +107,20 @@ class _Zipped:
         return self._read(f"data/{name}", limit)
 
     def _read(self, name: str, limit: int) -> bytes:
-        try:
+        if name not in self._names:
+            raise _missing(self.path, name)
+        damaged = ProjectError(
+            f"{name} in {self.path.name} is damaged.", "Restore the project from a backup."
+        )
+        with understood(damaged):
+            if self._zip.getinfo(name).compress_type not in PACKINGS:
+                raise ProjectError(
+                    f"{self.path.name} is packed in a way that is not read.",
+                    "Unpack it, and pack it again as an ordinary zip file (method: deflate).",
+                )
             with self._zip.open(name) as file:
                 # The size in the zip's directory is not trusted.
                 data = file.read(limit + 1)
-        except KeyError as error:
-            raise _missing(self.path, name) from error
-        except (
-            zipfile.BadZipFile, zlib.error, OSError, EOFError, RuntimeError, NotImplementedError,
-        ) as error:  # fmt: skip
-            raise ProjectError(
-                f"{name} in {self.path.name} is damaged.",
-                "Restore the project from a backup.",
-                str(error),
-            ) from error
         return _within(data, name, limit)
 
 
@@ -144,7 +145,7 @@ class _Folder:
 
     def _read(self, path: Path, limit: int) -> bytes:
         try:
-            with path.open("rb") as file:
+            with open_regular(path) as file:
                 return _within(file.read(limit + 1), path.name, limit)
         except FileNotFoundError as error:
             raise _missing(self.path, f"{self._data.name}/{path.name}") from error

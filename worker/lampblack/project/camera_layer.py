@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from ..camera import Affine
@@ -34,7 +35,7 @@ class CameraKey:
     easing: int = LINEAR
     bend: tuple[float, float] | None = None
 
-    @property
+    @cached_property
     def matrix(self) -> Affine:
         """From Pencil2D's frame to the picture's, both with their origins at the centre."""
         return _matrix(self.dx, self.dy, self.turn, self.scale)

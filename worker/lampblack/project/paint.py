@@ -66,19 +66,15 @@ class LayerPainter:
                     self._lay(canvas, layer, key)
         return canvas
 
-    def fingerprint(self, layers: Sequence[Layer], frame: int) -> str:
-        """A digest of all that determines the result of ``paint``."""
-        shown: list[object] = [self.region, self.origin]
-        for layer in layers:
-            key = layer.key_at(frame)
-            if key is not None and not key.blank:
-                content = key.inline or self._digest(key.file)
-                shown += [layer.kind, key.left, key.top, key.opacity, content]
-                if layer.touches_up or layer.groups:
-                    shown.append(repr((layer.blend, layer.clipped, layer.groups)))
-                if layer.kind == "vector":
-                    shown.append(self._digest(PALETTE))
-        return digest(*shown)
+    def identity(self, layer: Layer, key: Key) -> bytes:
+        """A digest of all that determines what ``paint`` makes of a key."""
+        found: list[object] = [self.region, self.origin, layer.kind, key.left, key.top, key.opacity]
+        found.append(key.inline or self._digest(key.file))
+        if layer.touches_up or layer.groups:
+            found.append((layer.blend, layer.clipped, layer.groups))
+        if layer.kind == "vector":
+            found.append(self._digest(PALETTE))
+        return digest(*found).encode()
 
     def _lay(self, canvas: Image.Image, layer: Layer, key: Key) -> None:
         try:
@@ -86,7 +82,12 @@ class LayerPainter:
                 picture, left, top = self.vectors.picture(layer, key, self.region), 0, 0
             else:
                 name = f"{key.file} of frame {key.frame} on layer {layer.name!r}"
-                picture = read_picture(io.BytesIO(self.archive.read(key.file)), name)
+                data = self.archive.read(key.file)
+                if self._digests.get(key.file, digest(data)) != digest(data):
+                    raise ProjectError(
+                        f"{name} was changed while the shot was rendered.", "Render the shot again."
+                    )
+                picture = read_picture(io.BytesIO(data), name)
                 picture, left, top = self._placed(picture, key)
         except ProjectError:
             raise

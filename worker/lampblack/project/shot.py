@@ -16,7 +16,6 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cache import digest
 from ..camera import Affine, is_flat, look_through, on_canvas, scene_in_view
 from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
@@ -26,6 +25,7 @@ from ..shot import MAX_LAYERS, Cel, CelLayer, ShotFrame, cropped_layer
 from .archive import Archive
 from .camera_layer import Camera
 from .document import Layer, Project
+from .exposure_sheet import shown
 from .paint import LayerPainter, Picture
 from .region import Region
 from .stack import Roles, stack_layers
@@ -59,29 +59,36 @@ class ProjectShot:
         self._stack = stack_layers(project, roles)
         if layers == "lit":
             self._stack = replace(self._stack, below=(), above=())
-        self.region = _region(self._camera, project.length)
+        self._views = [self._camera.at(number) for number in range(1, project.length + 1)]
+        self.region = _region(self._camera, self._views)
         origin = self._camera.width // 2, self._camera.height // 2
         self._painter = LayerPainter(archive, self.region, origin, VectorPictures(archive, origin))
-        stem = Path(archive.path).stem
-        self.frames: Sequence[ShotFrame] = [
-            self._frame(number, stem) for number in range(1, project.length + 1)
-        ]
+        self.frames: Sequence[ShotFrame] = self._frames(project.length, Path(archive.path).stem)
 
-    def _frame(self, number: int, stem: str) -> ShotFrame:
-        stack, paint = self._stack, self._painter
-        around = [paint.fingerprint(layers, number) for layers in (stack.below, stack.above)]
-        lit = [paint.fingerprint(layers, number) for layers in (stack.lit, stack.line)]
-        drawn = [layer for layer in stack.lit if _is_drawn(layer, number)]
-        if stack.light:
-            lit.append(paint.fingerprint(stack.light, number))
-        named = [layer.name for layer in drawn]
-        return ShotFrame(
-            number,
-            f"{stem}.{number:04d}.png",
-            digest(*lit, *named) if len(named) > 1 else " ".join(lit),
-            f"{around} {self._through(number)} {self.canvas}",
-            blank=not drawn,
-        )
+    def _frames(self, length: int, stem: str) -> list[ShotFrame]:
+        stack, identify = self._stack, self._painter.identity
+        lit = shown(stack.lit, length, identify)
+        # What the layers are called tells several bodies apart, and nothing else.
+        named = shown(stack.lit, length, lambda layer, key: layer.name.encode(errors="replace"))
+        others = [
+            shown(layers, length, identify)
+            for layers in (stack.line, stack.light, stack.below, stack.above)
+        ]
+        frames: list[ShotFrame] = []
+        for number, (cel, names, line, light, below, above) in enumerate(
+            zip(lit, named, *others, strict=True), start=1
+        ):
+            own = [cel, line, light, *([names] if cel.drawn > 1 else [])]
+            frames.append(
+                ShotFrame(
+                    number,
+                    f"{stem}.{number:04d}.png",
+                    " ".join(each.identity for each in own),
+                    f"{below.identity} {above.identity} {self._through(number)} {self.canvas}",
+                    blank=not cel.drawn,
+                )
+            )
+        return frames
 
     def cel(self, frame: ShotFrame) -> Cel:
         number = _number(frame)
@@ -139,7 +146,7 @@ class ProjectShot:
 
     def _through(self, number: int) -> Affine:
         """From the region's pixels to the picture's."""
-        a, b, c, d, e, f = self._camera.at(number)
+        a, b, c, d, e, f = self._views[number - 1]
         a, b, d, e = (each / self.region.scale for each in (a, b, d, e))
         left, top = self.region.left, self.region.top
         return a, b, c + a * left + b * top, d, e, f + d * left + e * top
@@ -160,21 +167,17 @@ def _choose(project: Project, name: str | None) -> Camera:
     )
 
 
-def _region(camera: Camera, length: int) -> Region:
+def _region(camera: Camera, views: Sequence[Affine]) -> Region:
     """The part of the canvas that the camera sees, over all frames. Where it shows the canvas at
     half size or smaller in every frame, no more is painted than that."""
-    low, high = np.full(2, math.inf), np.full(2, -math.inf)
     corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * [camera.width, camera.height]
-    closest = 0.0
-    for matrix in {camera.at(number) for number in range(1, length + 1)}:
-        a, b, c, d, e, f = matrix
-        if is_flat(matrix):
-            continue
-        closest = max(closest, math.sqrt(abs(a * e - b * d)))
-        seen = (corners - [c, f]) @ np.linalg.inv(np.array([[a, b], [d, e]])).T
-        low, high = np.minimum(low, seen.min(axis=0)), np.maximum(high, seen.max(axis=0))
-    if not closest:
+    matrices = np.array([view for view in set(views) if not is_flat(view)]).reshape(-1, 2, 3)
+    if not len(matrices):
         raise ProjectError("The camera shows nothing in any frame.", "Move its keys apart.")
+    turns, moves = matrices[:, :, :2], matrices[:, None, :, 2]
+    closest = math.sqrt(np.abs(np.linalg.det(turns)).max())
+    seen = (corners - moves) @ np.linalg.inv(turns).transpose(0, 2, 1)
+    low, high = seen.min(axis=(0, 1)), seen.max(axis=(0, 1))
     finest = closest if closest <= 0.5 else 1.0
     extent = high - low
     scale = min(finest, MAX_SIDE / extent.max(), math.sqrt(MAX_PIXELS / extent.prod()))

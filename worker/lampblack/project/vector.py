@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import weakref
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
@@ -26,6 +26,8 @@ from .region import Region
 PROGRAM = "pencil2d"
 PALETTE = "palette.xml"
 SECONDS = 600
+MAX_BYTES = 256 << 20
+"""Of the vector drawings of one layer; Pencil2D unpacks them into its temporary folder."""
 KEPT_VARIABLES = ("PATH", "LANG")
 
 
@@ -64,13 +66,21 @@ class VectorPictures:
         folder = Path(tempfile.mkdtemp(prefix="lampblack-vector-"))
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         project, keys = folder / "layer.pclx", [key for key in layer.keys if not key.blank]
+        files = {name: f"{at}.vec" for at, name in enumerate({k.file for k in keys if k.file}, 1)}
         with zipfile.ZipFile(project, "w") as archive:
-            for number, key in enumerate(keys, start=1):
-                if key.file:
-                    archive.writestr(f"data/{number}.vec", self.archive.read(key.file))
-            if self.archive.has(PALETTE):
-                archive.writestr(f"data/{PALETTE}", self.archive.read(PALETTE))
-            archive.writestr("main.xml", self._document(keys, region))
+            left = MAX_BYTES
+            for name, copy in [*files.items(), (PALETTE, PALETTE)]:
+                if name in files or self.archive.has(name):
+                    data = self.archive.read(name)
+                    left -= len(data)
+                    if left < 0:
+                        raise ProjectError(
+                            f"The drawings of {layer.name!r} are larger than "
+                            f"{MAX_BYTES >> 20} MiB in all.",
+                            f'Leave the layer out: --background "{layer.name}", or hide it.',
+                        )
+                    archive.writestr(f"data/{copy}", data)
+            archive.writestr("main.xml", self._document(keys, files, region))
         self._run(program, project, folder / "frame.png", len(keys))
         for number, key in enumerate(keys, start=1):
             drawn = folder / f"frame{number:04d}.png"
@@ -81,7 +91,7 @@ class VectorPictures:
                 )
             self._exported[layer.number, key.frame] = drawn
 
-    def _document(self, keys: Sequence[Key], region: Region) -> bytes:
+    def _document(self, keys: Sequence[Key], files: Mapping[str, str], region: Region) -> bytes:
         document = ElementTree.Element("document")
         layers = ElementTree.SubElement(document, "object")
         camera = ElementTree.SubElement(
@@ -101,7 +111,7 @@ class VectorPictures:
                 drawing.set("frame", str(number))
                 drawings.append(drawing)
             else:
-                ElementTree.SubElement(drawings, "image", frame=str(number), src=f"{number}.vec")
+                ElementTree.SubElement(drawings, "image", frame=str(number), src=files[key.file])
         text: bytes = ElementTree.tostring(document, "utf-8")
         return b"<!DOCTYPE PencilDocument>\n" + text
 

@@ -7,6 +7,7 @@ from importlib import resources
 from pathlib import Path
 
 from ..errors import SceneError
+from ..files import read_bounded
 from ..scene import MAX_JSON_BYTES, Rig, decode_rig
 
 PRESETS = ("key", "rim", "three-point", "sunset", "moon", "under-light", "lantern")
@@ -35,11 +36,14 @@ def find_rig(named: str) -> Rig:
         return preset(name)
     path = Path(named)
     try:
-        with path.open("rb") as file:
-            return decode_rig(file.read(MAX_JSON_BYTES + 1))
-    except OSError as error:
+        return decode_rig(read_bounded(path, MAX_JSON_BYTES))
+    except FileNotFoundError as error:
         raise SceneError(
             f"There is no rig {named[:200]!r}.",
             f"Name a file, or one of {', '.join(PRESETS)}.",
             str(error),
+        ) from error
+    except OSError as error:
+        raise SceneError(
+            f"The rig {named[:200]!r} cannot be read: {error.strerror}.", "Name another file."
         ) from error
