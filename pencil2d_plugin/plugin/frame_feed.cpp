@@ -39,7 +39,7 @@ FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObjec
         invalidateAll();
         requestCurrent();
     };
-    connect(&worker, &Worker::frameNeeded, this, [this](int frame) { mApart.request(frame, litLayers()); });
+    connect(&worker, &Worker::frameNeeded, this, [this](int frame) { request(frame); });
     connect(&host, &Host::layersChanged, this, startOver);
     connect(&host, &Host::projectOpened, this, startOver);
     connect(&document, &SceneDocument::layerRolesChanged, this, startOver);
@@ -58,8 +58,8 @@ void FrameFeed::setEnabled(bool enabled)
 
 FrameExport FrameFeed::lastExport(int frame) const
 {
-    const FrameExport* kept = mUpToDate.contains(frame) ? mExports.object(frame) : nullptr;
-    return kept ? *kept : FrameExport{};
+    const Sent* kept = mUpToDate.contains(frame) ? mExports.object(frame) : nullptr;
+    return kept ? kept->frame : FrameExport{};
 }
 
 QStringList FrameFeed::litLayers() const
@@ -79,7 +79,7 @@ void FrameFeed::requestAll(int first, int last)
         if (isUpToDate(frame))
             Q_EMIT frameSent(frame);
         else
-            mApart.request(frame, litLayers());
+            request(frame);
     }
 }
 
@@ -87,6 +87,11 @@ void FrameFeed::cancelAll()
 {
     cancelRequests();
     requestCurrent();
+}
+
+void FrameFeed::request(int frame)
+{
+    mApart.request(frame, {litLayers(), sortLayers(mHost.layers(), mDocument.layerRoles()).light});
 }
 
 void FrameFeed::cancelRequests()
@@ -103,7 +108,7 @@ void FrameFeed::requestCurrent()
     if (isUpToDate(frame))
         Q_EMIT frameSent(frame);
     else
-        mApart.request(frame, litLayers());
+        request(frame);
 }
 
 void FrameFeed::onFrameExported(const FrameExport& frame, const DrawnLayers& layers)
@@ -112,23 +117,28 @@ void FrameFeed::onFrameExported(const FrameExport& frame, const DrawnLayers& lay
         return;
     mWorker.putFrame(frame.frame, frame.image, frame.canvasToImage, layers);
     mUpToDate.insert(frame.frame);
-    const QImage before = mBefore.take(frame.frame);
-    if (!before.isNull() && before == frame.image)
+    const bool isLit = !layers.isEmpty() && layers.last().name == lightLayer();
+    const Sent sent{frame, isLit ? layers.last().pixels : QImage()};
+    const Sent before = mBefore.take(frame.frame);
+    if (!before.frame.image.isNull() && before.frame.image == frame.image && before.light == sent.light)
         Q_EMIT frameSame(frame.frame);
-    const int cost = int(frame.image.sizeInBytes() / 1024) + 1;
-    mExports.insert(frame.frame, new FrameExport(frame), cost);
+    const int cost = int((frame.image.sizeInBytes() + sent.light.sizeInBytes()) / 1024) + 1;
+    mExports.insert(frame.frame, new Sent(sent), cost);
     Q_EMIT frameSent(frame.frame);
 }
 
-/// The frame and those that show the same drawing, or may do so: a drawing is held over several frames.
+/// The frame and those that show the same drawing, or may do so: a drawing is held over several frames, and
+/// painted light over several drawings.
 QVector<int> FrameFeed::framesLike(int frame) const
 {
     QVector<int> frames{frame};
-    const FrameExport* changed = mExports.object(frame);
+    const bool isLight = lampblack::isLight(mHost.currentLayer(), mDocument.layerRoles());
+    const Sent* changed = isLight ? nullptr : mExports.object(frame);
     for (const int other : mUpToDate)
     {
-        const FrameExport* shown = mExports.object(other);
-        if (other != frame && (changed == nullptr || shown == nullptr || shown->image == changed->image))
+        const Sent* shown = mExports.object(other);
+        if (other != frame &&
+            (changed == nullptr || shown == nullptr || shown->frame.image == changed->frame.image))
             frames.append(other);
     }
     return frames;
@@ -136,8 +146,9 @@ QVector<int> FrameFeed::framesLike(int frame) const
 
 void FrameFeed::invalidate(int frame)
 {
-    if (const FrameExport last = lastExport(frame); !last.image.isNull() && !mBefore.contains(frame))
-        mBefore.insert(frame, last.image);
+    const Sent* last = mUpToDate.contains(frame) ? mExports.object(frame) : nullptr;
+    if (last != nullptr && !mBefore.contains(frame))
+        mBefore.insert(frame, *last);
     mUpToDate.remove(frame);
     mExports.remove(frame);
     Q_EMIT frameOutdated(frame);

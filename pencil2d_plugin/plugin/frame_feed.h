@@ -57,6 +57,14 @@ Q_SIGNALS:
 private:
     static constexpr int RestMs = 600;
 
+    /// What a frame showed when it was sent.
+    struct Sent
+    {
+        FrameExport frame;
+        QImage light; ///< painted; null where nothing is
+    };
+
+    void request(int frame);
     void cancelRequests();
     void onFrameExported(const FrameExport& frame, const DrawnLayers& layers);
     void invalidate(int frame);
@@ -70,8 +78,8 @@ private:
     bool mEnabled = false;
     QTimer mRest;
     QSet<int> mUpToDate;
-    QCache<int, FrameExport> mExports; ///< cost in KiB
-    QHash<int, QImage> mBefore;        ///< of frames that may have been redrawn
+    QCache<int, Sent> mExports; ///< cost in KiB
+    QHash<int, Sent> mBefore;   ///< of frames that may have been redrawn
 };
 
 } // namespace lampblack

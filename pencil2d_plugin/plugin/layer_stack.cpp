@@ -14,8 +14,14 @@ LayerStack sortLayers(const QVector<Layer>& layers, const LayerRoles& roles)
     for (const Layer& layer : layers)
     {
         const bool isDrawing = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
-        if (!isDrawing || isResult(layer.name, roles) || isLight(layer.name, roles))
+        if (!isDrawing || isResult(layer.name, roles))
             continue;
+        if (isLight(layer.name, roles))
+        {
+            if (layer.visible)
+                stack.light.append(layer.name);
+            continue;
+        }
         const bool isShown = layer.visible || (hasResult && roles.contains(layer.name));
         if (roleOf(layer.name, roles) != QLatin1String("background"))
         {

@@ -1,5 +1,7 @@
 #include "plugin/layers_apart.h"
 
+#include "scene/layer_roles.h"
+
 #include <QPainter>
 
 #include <algorithm>
@@ -62,15 +64,16 @@ LayersApart::~LayersApart()
     mComparing.waitForDone();
 }
 
-void LayersApart::request(int frame, const QStringList& lit)
+void LayersApart::request(int frame, const WantedLayers& wanted)
 {
     const auto before = mWaiting.constFind(frame);
-    if (before != mWaiting.constEnd() && before->lit == lit)
+    if (before != mWaiting.constEnd() && before->wanted.lit == wanted.lit &&
+        before->wanted.light == wanted.light)
         return;
     Waiting waiting;
-    waiting.lit = lit;
+    waiting.wanted = wanted;
     waiting.number = ++mRequests;
-    const QStringList names = withoutDuplicates(lit);
+    const QStringList names = withoutDuplicates(wanted.lit);
     QStringList missing;
     if (names.size() > 1)
     {
@@ -89,7 +92,10 @@ void LayersApart::request(int frame, const QStringList& lit)
     // A host may answer at once.
     for (const QString& name : qAsConst(missing))
         mHost.requestFrames(frame, frame, {name});
-    mHost.requestFrames(frame, frame, lit);
+    // It is not kept: nothing that is seen of a frame tells whether it has changed.
+    if (!wanted.light.isEmpty())
+        mHost.requestFrames(frame, frame, wanted.light);
+    mHost.requestFrames(frame, frame, wanted.lit);
 }
 
 void LayersApart::markChanged(int frame, const QString& layer)
@@ -115,8 +121,10 @@ void LayersApart::onExported(const FrameExport& frame)
     const auto waiting = mWaiting.find(frame.frame);
     if (waiting == mWaiting.end())
         return;
-    if (frame.layers == waiting->lit)
+    if (frame.layers == waiting->wanted.lit)
         waiting->whole = frame;
+    else if (!frame.layers.isEmpty() && frame.layers == waiting->wanted.light)
+        waiting->light = isBlank(frame.image) ? QImage() : frame.image;
     else if (frame.layers.size() == 1 && waiting->missing.remove(frame.layers.first()))
         waiting->images.insert(frame.layers.first(), isBlank(frame.image) ? QImage() : frame.image);
     else
@@ -144,7 +152,8 @@ void LayersApart::onFailed(int frame, const UserError& error)
 void LayersApart::finishIfComplete(int frame)
 {
     const Waiting& waiting = mWaiting[frame];
-    if (!waiting.whole || !waiting.missing.isEmpty())
+    const bool lacksLight = !waiting.light && !waiting.wanted.light.isEmpty();
+    if (!waiting.whole || !waiting.missing.isEmpty() || lacksLight)
         return;
     if (waiting.reuses)
         compareWithWhole(frame);
@@ -158,7 +167,8 @@ void LayersApart::compareWithWhole(int frame)
     mComparing.start(
         [this, frame, waiting]
         {
-            const bool alike = lookAlike(bottomFirst(waiting.lit, waiting.images), waiting.whole->image);
+            const bool alike =
+                lookAlike(bottomFirst(waiting.wanted.lit, waiting.images), waiting.whole->image);
             QMetaObject::invokeMethod(
                 this,
                 [this, frame, waiting, alike]
@@ -171,7 +181,7 @@ void LayersApart::compareWithWhole(int frame)
                         return;
                     }
                     markChanged(frame, {});
-                    request(frame, waiting.lit);
+                    request(frame, waiting.wanted);
                 },
                 Qt::QueuedConnection);
         });
@@ -180,12 +190,14 @@ void LayersApart::compareWithWhole(int frame)
 void LayersApart::deliver(int frame)
 {
     const Waiting waiting = mWaiting.take(frame);
-    DrawnLayers layers = bottomFirst(waiting.lit, waiting.images);
+    DrawnLayers layers = bottomFirst(waiting.wanted.lit, waiting.images);
     layers.erase(std::remove_if(layers.begin(), layers.end(),
                                 [](const DrawnLayer& layer) { return layer.pixels.isNull(); }),
                  layers.end());
     if (layers.size() < 2)
         layers.clear();
+    if (waiting.light && !waiting.light->isNull())
+        layers.append({lightLayer(), *waiting.light});
     if (!waiting.images.isEmpty())
         mKept.insert(frame, new Images(waiting.images), kibibytes(waiting.images));
     Q_EMIT exported(*waiting.whole, layers);

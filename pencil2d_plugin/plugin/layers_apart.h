@@ -15,8 +15,15 @@
 namespace lampblack
 {
 
-/// Exports frames with their layers apart. Layers that have not changed since the last export of the frame
-/// are not exported again: it compares what they show together with the frame.
+/// The layers that are lit, and those whose paint is light; top first.
+struct WantedLayers
+{
+    QStringList lit; ///< empty: all visible ones
+    QStringList light;
+};
+
+/// Exports frames with their layers apart. Lit layers that have not changed since the last export of the
+/// frame are not exported again: it compares what they show together with the frame.
 class LayersApart : public QObject
 {
     Q_OBJECT
@@ -25,10 +32,9 @@ public:
     explicit LayersApart(Host& host, QObject* parent = nullptr);
     ~LayersApart() override;
 
-    /// Export a frame with these layers, top first (empty: all visible ones). Ends with exported() or
-    /// failed(), unless cancel() or markChanged() is called before. Changes nothing while the same request
-    /// waits.
-    void request(int frame, const QStringList& lit);
+    /// Export a frame with these layers. Ends with exported() or failed(), unless cancel() or markChanged()
+    /// is called before. Changes nothing while the same request waits.
+    void request(int frame, const WantedLayers& wanted);
     /// Forget all that is requested. The host's own requests are cancelled by the caller.
     void cancel() { mWaiting.clear(); }
 
@@ -38,7 +44,8 @@ public:
     void markAllChanged();
 
 Q_SIGNALS:
-    /// `layers` have something drawn in them, each with a name of its own; none if there are less than two.
+    /// `layers` have something drawn in them, each with a name of its own; none if there are less than two
+    /// lit ones. Above them, or alone, is painted light, by the name of its layer.
     void exported(const lampblack::FrameExport& whole, const lampblack::DrawnLayers& layers);
     void failed(int frame, const lampblack::UserError& error);
 
@@ -47,8 +54,9 @@ private:
 
     struct Waiting
     {
-        QStringList lit;
+        WantedLayers wanted;
         std::optional<FrameExport> whole;
+        std::optional<QImage> light; ///< painted; null where nothing is
         QSet<QString> missing;
         Images images; ///< exported, or kept from before; null where nothing is drawn
         bool reuses = false;

@@ -1,5 +1,6 @@
 #include "plugin/lit_frames.h"
 
+#include "protocol/generated/apart_layers.h"
 #include "scene/layer_roles.h"
 
 #include <QFileInfo>
@@ -104,15 +105,17 @@ void LitFrames::setRedrawn(int frame, bool redrawn)
 
 void LitFrames::warnOfHiddenDrawing()
 {
+    if (!mFrames.contains(mHost.currentFrame()) || !mLayer.exists())
+        return;
+    const QStringList opaque{resultLayer(), resultLayer(QLatin1String(protocol::ApartLayers.front()))};
     const QVector<Layer> layers = mHost.layers();
-    const bool isHidden =
-        mFrames.contains(mHost.currentFrame()) &&
-        std::any_of(layers.begin(), layers.end(),
-                    [](const Layer& layer) { return layer.visible && layer.name == resultLayer(); });
-    if (isHidden && mLayer.exists() && mHost.currentLayer() != resultLayer())
+    const auto hiding =
+        std::find_if(layers.begin(), layers.end(),
+                     [&](const Layer& layer) { return layer.visible && opaque.contains(layer.name); });
+    if (hiding != layers.end() && !isResult(mHost.currentLayer(), mDocument.layerRoles()))
         mHost.showStatus(tr("The layer \"%1\" hides what you draw here. Hide it, or render what changed when "
                             "you are done.")
-                             .arg(resultLayer()),
+                             .arg(hiding->name),
                          WarningMs);
 }
 

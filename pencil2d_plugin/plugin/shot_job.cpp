@@ -56,9 +56,11 @@ ShotJob::ShotJob(Host& host, Worker& worker, FrameFeed& feed, LitLayer& layer, S
                 if (!mDeliveringLayer)
                     return;
                 Q_EMIT framesDelivered(mRendered - mRedrawn, mScene);
-                finish(tr("%1 lit frames are in the layer \"%2\" and in %3")
+                const bool isApart = mChoices.apart == ApartKind::Pencil2d;
+                finish((isApart ? tr("%1 lit frames are in the layers \"%2\" and in %3")
+                                : tr("%1 lit frames are in the layer \"%2\" and in %3"))
                            .arg(mRendered.size())
-                           .arg(resultLayer(), outputFolder()));
+                           .arg(isApart ? resultLayer(QStringLiteral("…")) : resultLayer(), outputFolder()));
             });
     connect(&layer, &LitLayer::failed, this,
             [this](const UserError& error)
@@ -121,19 +123,24 @@ QString ShotJob::outputFolder() const
     return project.absoluteDir().filePath(project.completeBaseName() + QStringLiteral("_lit"));
 }
 
-QString ShotJob::outputPattern() const
+QString ShotJob::suffix() const
+{
+    return mChoices.apart == ApartKind::Exr ? QStringLiteral("exr") : QStringLiteral("png");
+}
+
+QString ShotJob::outputPattern(const QString& suffix) const
 {
     // A percent sign would be read as part of the pattern.
     const QString name =
         QFileInfo(mHost.projectPath()).completeBaseName().replace(QLatin1Char('%'), QLatin1Char('_'));
-    return QDir(outputFolder()).filePath(name + QStringLiteral(".%04d.png"));
+    return QDir(outputFolder()).filePath(name + QStringLiteral(".%04d.") + suffix);
 }
 
-QString ShotJob::framePath(int frame) const
+QString ShotJob::framePath(int frame, const QString& suffix) const
 {
     constexpr int Digits = 4;
-    return outputPattern().replace(QStringLiteral("%04d"),
-                                   QString::number(frame).rightJustified(Digits, QLatin1Char('0')));
+    return outputPattern(suffix).replace(QStringLiteral("%04d"),
+                                         QString::number(frame).rightJustified(Digits, QLatin1Char('0')));
 }
 
 void ShotJob::generateSurfaces()
@@ -146,15 +153,15 @@ void ShotJob::generateSurfaces()
     begin(Kind::Surfaces, frames, true);
 }
 
-void ShotJob::render(FrameRange range, bool hideSources)
+void ShotJob::render(FrameRange range, const RenderChoices& choices)
 {
     QVector<int> frames;
     for (int frame = range.first; frame <= range.last; ++frame)
         frames.append(frame);
-    renderFrames(frames, hideSources);
+    renderFrames(frames, choices);
 }
 
-void ShotJob::renderFrames(const QVector<int>& frames, bool hideSources)
+void ShotJob::renderFrames(const QVector<int>& frames, const RenderChoices& choices)
 {
     if (mKind != Kind::None || frames.isEmpty())
         return;
@@ -171,14 +178,15 @@ void ShotJob::renderFrames(const QVector<int>& frames, bool hideSources)
                         tr("Save the project where you may write."), outputFolder()});
         return;
     }
-    if (mScene != mDocument.scene())
+    if (mScene != mDocument.scene() || mChoices.apart != choices.apart)
         mUpToDate.clear();
     mScene = mDocument.scene();
-    mHideSources = hideSources;
+    mChoices = choices;
     const QString project = mSaved.path();
     begin(Kind::Render, frames, project.isEmpty());
     if (!project.isEmpty())
-        mRenderJob = mWorker.render(formatFrames(frames), outputPattern(), mScene.quality, project);
+        mRenderJob = mWorker.render(formatFrames(frames), outputPattern(suffix()), mScene.quality, project,
+                                    mChoices.apart);
 }
 
 void ShotJob::cancel()
@@ -232,7 +240,7 @@ void ShotJob::onAllFramesSent()
     QVector<int> missing;
     for (const int frame : qAsConst(mFrames))
     {
-        if (mUpToDate.contains(frame) && QFileInfo::exists(framePath(frame)))
+        if (mUpToDate.contains(frame) && QFileInfo::exists(framePath(frame, suffix())))
             mRendered.insert(frame);
         else
             missing.append(frame);
@@ -240,7 +248,8 @@ void ShotJob::onAllFramesSent()
     if (missing.isEmpty())
         deliverLayer();
     else
-        mRenderJob = mWorker.render(formatFrames(missing), outputPattern(), mScene.quality);
+        mRenderJob = mWorker.render(formatFrames(missing), outputPattern(suffix()), mScene.quality, {},
+                                    mChoices.apart);
 }
 
 void ShotJob::onRenderDone(const QString& outcome)
@@ -256,7 +265,7 @@ void ShotJob::onRenderDone(const QString& outcome)
 
 void ShotJob::deliverLayer()
 {
-    if (mRendered.isEmpty() || !mHost.can(Host::Ability::Deliver))
+    if (mRendered.isEmpty() || !mHost.can(Host::Ability::Deliver) || mChoices.apart == ApartKind::Exr)
     {
         finishWithFiles();
         return;
@@ -264,7 +273,8 @@ void ShotJob::deliverLayer()
     mDeliveringLayer = true;
     Q_EMIT progressChanged(mKind, mTotal, mTotal, tr("Making the layer"));
     // A job for a part of the animation keeps the other frames of the layer.
-    const bool keepsOthers = mLayer.exists();
+    const bool isApart = mChoices.apart == ApartKind::Pencil2d;
+    const bool keepsOthers = mLayer.exists(isApart);
     QMap<int, QString> pictures;
     const int count = mHost.frameCount();
     for (int frame = 1; frame <= count; ++frame)
@@ -273,7 +283,8 @@ void ShotJob::deliverLayer()
             (keepsOthers && !mFrames.contains(frame) && QFileInfo::exists(framePath(frame))))
             pictures.insert(frame, framePath(frame));
     }
-    mLayer.deliver(pictures, mHideSources && pictures.size() == count);
+    mLayer.deliver(isApart ? picturesApart(pictures) : QVector<LayerPictures>{{resultLayer(), pictures}},
+                   mChoices.hidesSources && pictures.size() == count);
 }
 
 void ShotJob::reportMissing()

@@ -12,6 +12,13 @@
 namespace lampblack
 {
 
+/// How frames are rendered.
+struct RenderChoices
+{
+    bool hidesSources = false; ///< hide the lit layers if the result layer covers the whole animation
+    ApartKind apart = ApartKind::None;
+};
+
 /// One job at a time. First all its frames are sent to the worker, a few whenever the artist is idle. Then
 /// the worker prepares and lights them, or renders them into files, which become the result layer.
 class ShotJob : public QObject
@@ -34,17 +41,17 @@ public:
     void generateSurfaces();
 
     /// Render into "<project>_lit/<project>.0001.png" and so on, beside the project, then deliver the files
-    /// as the result layer. A saved project is rendered from its file, just as the command line does it;
-    /// with unsaved changes, the drawings are. Files that are up to date are not rendered again. With
-    /// `hideSources` the lit layers are hidden if the result layer covers the whole animation.
-    void render(FrameRange range, bool hideSources);
-    void renderFrames(const QVector<int>& frames, bool hideSources);
+    /// as the result layer, or as layers apart. EXR files become no layer. A saved project is rendered from
+    /// its file, just as the command line does it; with unsaved changes, the drawings are. Files that are up
+    /// to date are not rendered again.
+    void render(FrameRange range, const RenderChoices& choices);
+    void renderFrames(const QVector<int>& frames, const RenderChoices& choices);
 
     void cancel();
 
     /// Where render() writes; empty while the project has no file.
     QString outputFolder() const;
-    QString framePath(int frame) const;
+    QString framePath(int frame) const { return framePath(frame, QStringLiteral("png")); }
 
 Q_SIGNALS:
     void progressChanged(lampblack::ShotJob::Kind kind, int done, int total, const QString& doing);
@@ -63,7 +70,9 @@ private:
     void reportMissing();
     void finishWithFiles();
     void finish(const QString& message);
-    QString outputPattern() const;
+    QString outputPattern(const QString& suffix) const;
+    QString framePath(int frame, const QString& suffix) const;
+    QString suffix() const; ///< of the files of this job
 
     Host& mHost;
     Worker& mWorker;
@@ -82,7 +91,7 @@ private:
     QSet<int> mOutdated; ///< frames whose drawings changed during this job
     Scene mScene;        ///< the scene of the last render job
     QStringList mErrors;
-    bool mHideSources = false;
+    RenderChoices mChoices;
     bool mDeliveringLayer = false;
 };
 

@@ -169,13 +169,17 @@ void Studio::connectJobs()
             [this, startWorker]
             {
                 startWorker();
-                mJob->render(selectedRange(), mTool->hidesSources());
+                mJob->render(selectedRange(), {mTool->hidesSources(), mTool->apart()});
             });
     connect(mTool.get(), &LampTool::renderChangedRequested, mJob.get(),
             [this, startWorker]
             {
                 startWorker();
-                mJob->renderFrames(mLitFrames->outdated(), false);
+                // The layers that are there stay one, or apart.
+                ApartKind apart = mTool->apart();
+                if (mLayer->isApart() || apart == ApartKind::Pencil2d || apart == ApartKind::Exr)
+                    apart = mLayer->isApart() ? ApartKind::Pencil2d : ApartKind::None;
+                mJob->renderFrames(mLitFrames->outdated(), {false, apart});
             });
     connect(mJob.get(), &ShotJob::framesDelivered, mLitFrames.get(), &LitFrames::setLit);
     connect(mLitFrames.get(), &LitFrames::changed, this,

@@ -7,13 +7,19 @@
 namespace lampblack
 {
 
-/// Role by the layer's name: "character" and "line" are lit, "background" stays as drawn, "result" is the
-/// layer that Lampblack made.
+/// Role by the layer's name: "character" and "line" are lit, "background" stays as drawn, "result" is a layer
+/// that Lampblack made.
 using LayerRoles = QMap<QString, QString>;
 
 inline QString resultLayer()
 {
     return QStringLiteral("Lit");
+}
+
+/// The layer of lit frames that are taken apart, which shows one of their layers, such as "floor_shadow".
+inline QString resultLayer(const QString& apart)
+{
+    return resultLayer() + QStringLiteral(": ") + QString(apart).replace(QLatin1Char('_'), QLatin1Char(' '));
 }
 
 /// The layer whose paint is light.
@@ -46,8 +52,8 @@ inline QString roleOf(const QString& layer, const LayerRoles& roles)
 /// says so.
 inline bool isResult(const QString& layer, const LayerRoles& roles)
 {
-    return roles.value(layer) == QLatin1String("result") ||
-           (layer == resultLayer() && !roles.contains(layer));
+    const bool isNamedSo = layer == resultLayer() || layer.startsWith(resultLayer(QString()));
+    return roles.value(layer) == QLatin1String("result") || (isNamedSo && !roles.contains(layer));
 }
 
 } // namespace lampblack

@@ -12,6 +12,7 @@
 #include "tool/panel/lamp_panel.h"
 #include "tool/panel/light_links.h"
 #include "tool/panel/rig_menu.h"
+#include "tool/panel/rig_pictures.h"
 
 #include <utility>
 
@@ -127,7 +128,10 @@ void LampTool::addPanel()
     connect(mPanel, &LampPanel::retryRequested, &mWorker, &Worker::start);
     mPanel->setWorkerState(mWorker.state());
     if (auto* rigs = mPanel->findChild<RigMenu*>())
+    {
         rigs->setFigure([this] { return mColours.drawnBox(); });
+        new RigPictures(mHost, mWorker, *rigs);
+    }
     if (mHost.can(Host::Ability::Panel))
     {
         mHost.setToolPanel(mPanel);
@@ -308,6 +312,11 @@ ShotRange LampTool::shotRange() const
 bool LampTool::hidesSources() const
 {
     return mPanel && mPanel->render()->hidesSources();
+}
+
+ApartKind LampTool::apart() const
+{
+    return mPanel ? mPanel->render()->apart() : ApartKind::None;
 }
 
 void LampTool::setFrame(const FrameExport& frame)

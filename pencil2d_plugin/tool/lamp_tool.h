@@ -53,6 +53,7 @@ public:
     QAction* keepAction() { return mKeep; }     ///< "Keep the Light While Drawing"
     ShotRange shotRange() const;
     bool hidesSources() const; ///< whether the lit layers are hidden once the result layer is there
+    ApartKind apart() const;   ///< what rendered frames are taken apart into
 
 public Q_SLOTS:
     /// The current drawing, for the colour under the pointer. Its camera is remembered for pictures of its

@@ -18,7 +18,8 @@ struct RenderJob
     QVector<int> frames; ///< frames that are not rendered yet
     QString output;
     Quality quality = Quality::Final;
-    QString project;            ///< empty: the drawings that were put
+    QString project; ///< empty: the drawings that were put
+    protocol::ApartKind apart = protocol::ApartKind::None;
     std::optional<Scene> scene; ///< the scene at the start of the job
     quint64 lastPut = 0;        ///< the job needs the drawings up to this call of FrameStore::put()
     quint64 request = 0;        ///< 0 while no worker has the job

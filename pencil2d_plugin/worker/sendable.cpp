@@ -1,6 +1,7 @@
 #include "worker/sendable.h"
 
 #include "protocol/generated/limits.h"
+#include "scene/layer_roles.h"
 
 #include <QRegularExpression>
 
@@ -45,7 +46,8 @@ DrawnLayers sendable(DrawnLayers layers, const QSize& size)
     const qint64 pixels = qint64(size.width()) * size.height() * (1 + layers.size());
     if (layers.size() > MaxLayers || pixels > protocol::Limits().framePixels)
     {
-        return {};
+        const bool hasLight = !layers.isEmpty() && layers.last().name == lightLayer();
+        return hasLight && layers.size() > 1 ? sendable({layers.last()}, size) : DrawnLayers();
     }
     for (DrawnLayer& layer : layers)
     {
@@ -60,7 +62,8 @@ DrawnLayers sendable(DrawnLayers layers, const QSize& size)
 
 bool isOutput(const QString& output)
 {
-    static const QRegularExpression pattern(QStringLiteral("\\A/[^%\\x00-\\x1f\\x7f]*%0[1-9]d\\.png\\z"));
+    static const QRegularExpression pattern(
+        QStringLiteral("\\A/[^%\\x00-\\x1f\\x7f]*%0[1-9]d\\.(png|exr)\\z"));
     return output.size() <= MaxListLength && pattern.match(output).hasMatch();
 }
 

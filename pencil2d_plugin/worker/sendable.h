@@ -18,7 +18,8 @@ QRectF bounded(const QRectF& crop);
 /// `size` shrunk to the allowed maximum, with the same proportions.
 QSize bounded(const QSize& size);
 
-/// `layers` as they may be sent of a drawing of this size: none if they are too many or too large.
+/// `layers` as they may be sent of a drawing of this size: if they are too many or too large, none but
+/// painted light.
 DrawnLayers sendable(DrawnLayers layers, const QSize& size);
 
 /// Whether it is a path and pattern of rendered files.

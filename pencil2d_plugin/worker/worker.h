@@ -16,6 +16,7 @@
 namespace lampblack
 {
 
+using protocol::ApartKind;
 using protocol::Overlap;
 using protocol::OverlapPoint;
 using protocol::Show;
@@ -32,6 +33,13 @@ struct PreviewImage
     quint64 revision = 0; ///< revision of the scene
     int pass = 0;
     bool converged = false;
+};
+
+/// A rig of the worker, with a picture of a frame's drawing in its light.
+struct RigSketch
+{
+    QString name;   ///< as in the file of the rig, such as "three-point"
+    QImage picture; ///< square, Format_RGBA8888_Premultiplied
 };
 
 class Worker : public QObject
@@ -92,12 +100,14 @@ public:
     virtual void requestPalette(int frame) = 0;
     /// Ask where the drawing of a frame overlaps itself, under the current scene.
     virtual void requestOverlaps(int frame) = 0;
+    /// Ask for pictures of a frame's drawing, `side` pixels large, in the light of each rig of the worker.
+    virtual void requestRigs(int frame, int side) = 0;
 
-    /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png: of the drawings that were put, or,
-    /// with a `project`, of that file. Files of a project that are up to date are kept. Returns the job's
-    /// number.
+    /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png or .exr: of the drawings that were
+    /// put, or, with a `project`, of that file. Files of a project that are up to date are kept. `apart` adds
+    /// layers for compositing. Returns the job's number.
     virtual quint64 render(const QString& frames, const QString& output, Quality quality,
-                           const QString& project = {}) = 0;
+                           const QString& project = {}, ApartKind apart = ApartKind::None) = 0;
     virtual void cancelRender(quint64 job) = 0;
 
 Q_SIGNALS:
@@ -108,6 +118,7 @@ Q_SIGNALS:
     void frameNeeded(int frame);
     void paletteArrived(int frame, const QVector<lampblack::Swatch>& swatches);
     void overlapsArrived(int frame, const QVector<lampblack::Overlap>& overlaps); ///< longest first
+    void rigsArrived(int frame, const QVector<lampblack::RigSketch>& rigs);
     void framesLit(int lit,
                    int held); ///< number of frames lit under this scene, and of frames the worker has
     void renderProgress(quint64 job, int frame, double share, int done, int total);
@@ -121,3 +132,4 @@ Q_SIGNALS:
 Q_DECLARE_METATYPE(lampblack::PreviewImage)
 Q_DECLARE_METATYPE(QVector<lampblack::Swatch>)
 Q_DECLARE_METATYPE(QVector<lampblack::Overlap>)
+Q_DECLARE_METATYPE(QVector<lampblack::RigSketch>)

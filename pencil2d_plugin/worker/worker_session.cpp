@@ -13,6 +13,8 @@ namespace
 
 constexpr int LastFrame = 999999;
 constexpr int MaxFrames = 100000;
+constexpr int LeastRigSide = 16; ///< of a picture, pixels (SPEC 8, get_rigs)
+constexpr int MostRigSide = 256;
 
 } // namespace
 
@@ -88,8 +90,10 @@ void WorkerSession::dropFrame(int frame)
 {
     const bool known = mFrameStore.frames().contains(frame);
     mFrameStore.drop(frame);
-    mPaletteRequests.remove(frame);
-    mOverlapRequests.remove(frame);
+    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests, &mRigRequests})
+    {
+        requests->remove(frame);
+    }
     if (known)
     {
         sendMessage(protocol::DropFrame{frame});
@@ -100,8 +104,10 @@ void WorkerSession::dropAllFrames()
 {
     const QList<int> frames = mFrameStore.frames().keys();
     mFrameStore.clear();
-    mPaletteRequests.clear();
-    mOverlapRequests.clear();
+    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests, &mRigRequests})
+    {
+        requests->clear();
+    }
     mNeeded.clear();
     for (const int frame : frames)
     {
@@ -183,8 +189,15 @@ void WorkerSession::requestOverlaps(int frame)
     sendQuestions();
 }
 
+void WorkerSession::requestRigs(int frame, int side)
+{
+    mRigSide = qBound(LeastRigSide, side, MostRigSide);
+    mRigRequests.insert(frame, 0);
+    sendQuestions();
+}
+
 quint64 WorkerSession::render(const QString& frames, const QString& output, Quality quality,
-                              const QString& project)
+                              const QString& project, ApartKind apart)
 {
     const std::optional<QVector<int>> list = parseFrames(frames);
     if (!list)
@@ -208,6 +221,7 @@ quint64 WorkerSession::render(const QString& frames, const QString& output, Qual
     job.output = output;
     job.quality = quality;
     job.project = project;
+    job.apart = apart;
     job.scene = mScene;
     job.lastPut = mFrameStore.lastPut();
     job.total = list->size();
@@ -310,7 +324,7 @@ void WorkerSession::handleIncoming()
             [this, &incoming](const auto& message)
             {
                 using Kind = std::decay_t<decltype(message)>;
-                if constexpr (std::is_same_v<Kind, protocol::Image>)
+                if constexpr (std::is_same_v<Kind, protocol::Image> || std::is_same_v<Kind, protocol::Rigs>)
                 {
                     handle(message, incoming.picture);
                 }

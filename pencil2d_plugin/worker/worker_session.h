@@ -42,8 +42,9 @@ public:
     void cancelPreview() override;
     void requestPalette(int frame) override;
     void requestOverlaps(int frame) override;
-    quint64 render(const QString& frames, const QString& output, Quality quality,
-                   const QString& project = {}) override;
+    void requestRigs(int frame, int side) override;
+    quint64 render(const QString& frames, const QString& output, Quality quality, const QString& project = {},
+                   ApartKind apart = ApartKind::None) override;
     void cancelRender(quint64 job) override;
 
     qint64 workerPid() const { return mProcess.pid(); } ///< 0 while there is none
@@ -80,6 +81,7 @@ private:
     void handle(const protocol::Image& image, const QImage& picture);
     void handle(const protocol::Palette& palette);
     void handle(const protocol::Overlaps& overlaps);
+    void handle(const protocol::Rigs& rigs, const QImage& pictures);
     /// Whether this is the awaited answer about the current drawing. Asks again if the drawing has changed.
     bool isAnswer(QMap<int, quint64>& requests, int frame, quint64 request, const QByteArray& digest);
     void setTakesLayers(bool takes);
@@ -98,6 +100,7 @@ private:
     FrameStore mFrameStore;
     bool mTakesLayers = true; ///< the worker takes the layers of a drawing apart
     bool mTellsOverlaps = true;
+    bool mSketchesRigs = true;
     QSet<QByteArray> mNeeded; ///< digests whose pixels the worker waits for
     std::optional<Scene> mScene;
     QSet<quint64> mSceneRevisions; ///< revisions under which mScene was sent
@@ -107,6 +110,8 @@ private:
     QHash<int, ImageRank> mImageRanks;   ///< of the last image that was emitted, by frame
     QMap<int, quint64> mPaletteRequests; ///< request by frame, 0 while it is not sent
     QMap<int, quint64> mOverlapRequests; ///< as well
+    QMap<int, quint64> mRigRequests;     ///< as well
+    int mRigSide = 0;                    ///< of the pictures that were asked for last
     RenderJobs mJobs;
 };
 

@@ -23,6 +23,7 @@ void WorkerSession::handle(const protocol::Welcome& welcome)
 {
     constexpr int MinorWithOverlaps = 2;
     mTellsOverlaps = welcome.minor >= MinorWithOverlaps;
+    mSketchesRigs = welcome.capabilities.contains(QStringLiteral("rigs"));
     setTakesLayers(welcome.capabilities.contains(QStringLiteral("layers")));
     mGreeted = true;
     sendAll();
@@ -92,6 +93,21 @@ void WorkerSession::handle(const protocol::Overlaps& overlaps)
     {
         Q_EMIT overlapsArrived(overlaps.frame, overlaps.overlaps);
     }
+}
+
+void WorkerSession::handle(const protocol::Rigs& rigs, const QImage& pictures)
+{
+    if (!isAnswer(mRigRequests, rigs.frame, rigs.request, rigs.digest))
+    {
+        return;
+    }
+    QVector<RigSketch> sketches;
+    const int side = pictures.width();
+    for (int place = 0; place < rigs.names.size() && (place + 1) * side <= pictures.height(); ++place)
+    {
+        sketches.append({rigs.names[place], pictures.copy(0, place * side, side, side)});
+    }
+    Q_EMIT rigsArrived(rigs.frame, sketches);
 }
 
 bool WorkerSession::isAnswer(QMap<int, quint64>& requests, int frame, quint64 request,

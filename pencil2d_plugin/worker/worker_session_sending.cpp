@@ -32,7 +32,7 @@ void WorkerSession::sendAll()
     {
         mPreview->request = 0;
     }
-    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests})
+    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests, &mRigRequests})
     {
         for (quint64& request : *requests)
         {
@@ -128,6 +128,13 @@ void WorkerSession::sendQuestions()
     {
         send(mOverlapRequests, [this](int frame) { return protocol::GetOverlaps{mRequest, frame}; });
     }
+    if (mSketchesRigs && mScene)
+    {
+        send(mRigRequests,
+             [this](int frame) {
+                 return protocol::GetRigs{mRequest, frame, mRigSide, true, {}};
+             });
+    }
 }
 
 void WorkerSession::sendJobs()
@@ -154,8 +161,8 @@ void WorkerSession::sendJobs()
         }
         job.request = ++mRequest;
         ++job.asked;
-        sendMessage(
-            protocol::Render{mRequest, frames, job.output, job.quality, !job.project.isEmpty(), job.project});
+        sendMessage(protocol::Render{mRequest, frames, job.output, job.quality, !job.project.isEmpty(),
+                                     job.project, job.apart});
         if (other)
         {
             sendScene();

@@ -296,9 +296,10 @@ def test_roles_say_what_is_lit_and_what_lies_around(tmp_path: Path) -> None:
     assert "Lit" not in [one.name for one in shot_of(path)._stack.lit]
 
 
-def test_sources_hidden_behind_their_result_are_lit(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["Lit", "Lit: shade"])
+def test_sources_hidden_behind_their_result_are_lit(tmp_path: Path, name: str) -> None:
     hidden = layer(2, "figure", [image(1, "ball.png", -45, -45)], visible=False)
-    result = layer(3, "Lit", [image(1, "secret.png")])
+    result = layer(3, name, [image(1, "secret.png")])
     path = write_project(tmp_path / "walk.pclx", document([hidden, result]), FILES)
     assert shot_of(path, ROLES).cel(shot_of(path, ROLES).frames[0]).pixels.any()
     with pytest.raises(ProjectError, match="visible layers"):

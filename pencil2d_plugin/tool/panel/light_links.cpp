@@ -4,6 +4,7 @@
 #include "scene/timeline.h"
 #include "tool/canvas/lamp_menu.h"
 
+#include <QActionGroup>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QVBoxLayout>
@@ -14,34 +15,33 @@ namespace lampblack
 namespace
 {
 constexpr int SwatchSide = 14;
-}
+constexpr int MostTextWidth = 84; ///< of a button, pixels: the panel is narrow
+} // namespace
 
 LightLinks::LightLinks(Host& host, SceneDocument& document, QWidget* parent)
-    : QWidget(parent), mHost(host), mDocument(document),
-      mPinned(new QCheckBox(tr("Moves with the drawing"), this))
+    : QWidget(parent), mHost(host), mDocument(document)
 {
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(3);
     mLitLayers = addChoice("light.layers", tr("Lights layers"),
                            tr("Only these layers take this light: a lamp for a face, and not for the hills"),
-                           &AreaLight::layers);
-    mLitColours =
-        addChoice("light.colours", tr("Lights colours"),
-                  tr("Only these colours take this light: a glint for the eyes"), &AreaLight::colours);
-    mPinned->setObjectName(QStringLiteral("lampblack.panel.light.pinned"));
-    mPinned->setToolTip(
-        tr("The light stays with what is drawn beneath it at this frame, such as a lantern in a "
-           "hand, and follows it through the shot"));
-    rows->addWidget(mPinned);
-    connect(mPinned, &QCheckBox::clicked, this, &LightLinks::setPinned);
+                           [this](QMenu& menu) { fillLit(menu, layers(), &AreaLight::layers); });
+    mLitColours = addChoice("light.colours", tr("Lights colours"),
+                            tr("Only these colours take this light: a glint for the eyes"),
+                            [this](QMenu& menu) { fillLit(menu, mColours, &AreaLight::colours); });
+    mPinned =
+        addChoice("light.pin", tr("Moves with"),
+                  tr("The light stays with a place of the drawing, such as a lantern in a hand, or with "
+                     "a whole layer, and follows it through the shot"),
+                  [this](QMenu& menu) { fillPins(menu); });
     connect(&document, &SceneDocument::sceneChanged, this, &LightLinks::refresh);
     connect(&document, &SceneDocument::selectionChanged, this, &LightLinks::refresh);
     refresh();
 }
 
 QToolButton* LightLinks::addChoice(const char* name, const QString& label, const QString& hint,
-                                   QStringList AreaLight::*field)
+                                   const std::function<void(QMenu&)>& fill)
 {
     auto* button = new QToolButton(this);
     button->setObjectName(QStringLiteral("lampblack.panel.") + QLatin1String(name));
@@ -52,7 +52,11 @@ QToolButton* LightLinks::addChoice(const char* name, const QString& label, const
     auto* menu = new QMenu(button);
     button->setMenu(menu);
     connect(menu, &QMenu::aboutToShow, this,
-            [this, menu, field] { fill(*menu, field == &AreaLight::layers ? layers() : mColours, field); });
+            [menu, fill]
+            {
+                menu->clear();
+                fill(*menu);
+            });
     auto* row = new QHBoxLayout;
     row->addWidget(new QLabel(label, this));
     row->addStretch(1);
@@ -61,9 +65,8 @@ QToolButton* LightLinks::addChoice(const char* name, const QString& label, const
     return button;
 }
 
-void LightLinks::fill(QMenu& menu, const QStringList& all, QStringList AreaLight::*field)
+void LightLinks::fillLit(QMenu& menu, const QStringList& all, QStringList AreaLight::*field)
 {
-    menu.clear();
     const AreaLight* light = selected();
     if (light == nullptr)
         return;
@@ -99,6 +102,31 @@ void LightLinks::fill(QMenu& menu, const QStringList& all, QStringList AreaLight
     }
 }
 
+void LightLinks::fillPins(QMenu& menu)
+{
+    const AreaLight* light = selected();
+    if (light == nullptr)
+        return;
+    auto* choices = new QActionGroup(&menu);
+    const auto add = [&](const QString& text, bool on, const std::function<void()>& choose)
+    {
+        QAction* entry = menu.addAction(text);
+        entry->setCheckable(true);
+        entry->setChecked(on);
+        choices->addAction(entry);
+        connect(entry, &QAction::triggered, this, choose);
+    };
+    const QString layer = light->pin ? light->pin->layer : QString();
+    add(tr("Nothing"), !light->pin, [this] { unpin(); });
+    add(tr("What Is Beneath It Here"), light->pin && layer.isEmpty(), [this] { pinTo(QString()); });
+    menu.addSeparator();
+    QStringList names = layers();
+    if (!layer.isEmpty() && !names.contains(layer))
+        names << layer;
+    for (const QString& name : qAsConst(names))
+        add(name, name == layer, [this, name] { pinTo(name); });
+}
+
 QStringList LightLinks::layers() const
 {
     QStringList names;
@@ -107,7 +135,7 @@ QStringList LightLinks::layers() const
     for (const Layer& layer : all)
     {
         const bool isDrawing = layer.kind == Layer::Kind::Bitmap || layer.kind == Layer::Kind::Vector;
-        if (isDrawing && !isResult(layer.name, roles))
+        if (isDrawing && !isResult(layer.name, roles) && !isLight(layer.name, roles))
             names << layer.name;
     }
     return names;
@@ -122,24 +150,33 @@ void LightLinks::refresh()
     };
     mLitLayers->setText(say(light ? light->layers : QStringList()));
     mLitColours->setText(say(light ? light->colours : QStringList()));
-    mPinned->setChecked(light != nullptr && light->pin.has_value());
+    const auto pinned = [&]
+    {
+        if (light == nullptr || !light->pin)
+            return tr("nothing");
+        return light->pin->layer.isEmpty() ? tr("its place") : light->pin->layer;
+    };
+    mPinned->setText(fontMetrics().elidedText(pinned(), Qt::ElideRight, MostTextWidth));
     mPinned->setEnabled(light != nullptr && light->kind == LightKind::Lamp);
 }
 
-void LightLinks::setPinned(bool pinned)
+void LightLinks::unpin()
+{
+    change(tr("Unpin Light"), [](AreaLight& light) { light.pin.reset(); });
+}
+
+void LightLinks::pinTo(const QString& layer)
 {
     const int frame = mHost.currentFrame();
-    change(pinned ? tr("Pin Light") : tr("Unpin Light"),
+    change(tr("Pin Light"),
            [&](AreaLight& light)
            {
-               light.pin.reset();
-               if (!pinned)
-                   return;
                const AreaLight shown = lightAt(light, frame);
                Pin pin;
                pin.frame = frame;
                pin.x = shown.x;
                pin.y = shown.y;
+               pin.layer = layer;
                light.pin = pin;
            });
 }

@@ -4,7 +4,6 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 
-#include <QCheckBox>
 #include <QMenu>
 #include <QToolButton>
 
@@ -23,11 +22,13 @@ public:
 
 private:
     QToolButton* addChoice(const char* name, const QString& label, const QString& hint,
-                           QStringList AreaLight::*field);
-    void fill(QMenu& menu, const QStringList& all, QStringList AreaLight::*field);
+                           const std::function<void(QMenu&)>& fill);
+    void fillLit(QMenu& menu, const QStringList& all, QStringList AreaLight::*field);
+    void fillPins(QMenu& menu);
     QStringList layers() const;
     void refresh();
-    void setPinned(bool pinned);
+    void unpin();
+    void pinTo(const QString& layer);
     void change(const QString& text, const std::function<void(AreaLight&)>& apply);
     const AreaLight* selected() const;
 
@@ -36,7 +37,7 @@ private:
     QStringList mColours;
     QToolButton* mLitLayers;
     QToolButton* mLitColours;
-    QCheckBox* mPinned;
+    QToolButton* mPinned;
 };
 
 } // namespace lampblack

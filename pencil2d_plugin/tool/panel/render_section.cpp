@@ -29,12 +29,34 @@ QPushButton* buttonFor(QAction& action, const QString& name, QWidget* parent)
     return button;
 }
 
+struct Kind
+{
+    ApartKind apart;
+    QString name;
+    QString hint;
+};
+
+QVector<Kind> apartKinds()
+{
+    const auto tr = [](const char* text)
+    {
+        return RenderSection::tr(text);
+    };
+    return {
+        {ApartKind::None, tr("One"), tr("The lit frames, in one layer")},
+        {ApartKind::Pencil2d, tr("Apart"), tr("Layers of this project, in place of the layer \"Lit\"")},
+        {ApartKind::Ora, tr("+ ORA"), tr("Beside each frame an OpenRaster file, for Krita and MyPaint")},
+        {ApartKind::Png, tr("+ PNG"), tr("A folder of PNG files for each layer, to be blended elsewhere")},
+        {ApartKind::Exr, tr("EXR"),
+         tr("Files with all layers, for Nuke and Blender; the project stays as it is")}};
+}
+
 } // namespace
 
 RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction& render, QWidget* parent)
     : Section(QStringLiteral("lampblack.panel.render_section"), tr("Whole animation"), true, parent),
       mDocument(document), mRender(render), mRange(new QComboBox(this)), mQuality(new QComboBox(this)),
-      mHide(new QCheckBox(tr("Hide the sources"), this)),
+      mApart(new QComboBox(this)), mHide(new QCheckBox(tr("Hide the sources"), this)),
       mRenderAll(buttonFor(render, QStringLiteral("lampblack.panel.render"), this)),
       mOutdated(new QLabel(this)), mRenderChanged(new QPushButton(tr("Render What Changed"), this))
 {
@@ -50,6 +72,18 @@ RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction
     mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
     mQuality->addItems({tr("Low"), tr("Medium"), tr("Final")});
     ignoreWheelWithoutFocus(mQuality);
+    mApart->setObjectName(QStringLiteral("lampblack.panel.apart"));
+    mApart->setAccessibleName(tr("Layers for compositing"));
+    mApart->setToolTip(
+        tr("Shadow, shade, light, highlight, rim and glow apart, for compositing. Laid over one "
+           "another they are the lit frame."));
+    const QVector<Kind> kinds = apartKinds();
+    for (const Kind& kind : kinds)
+    {
+        mApart->addItem(kind.name, int(kind.apart));
+        mApart->setItemData(mApart->count() - 1, kind.hint, Qt::ToolTipRole);
+    }
+    ignoreWheelWithoutFocus(mApart);
     mOutdated->setObjectName(QStringLiteral("lampblack.panel.outdated"));
     mOutdated->setWordWrap(true);
     mRenderChanged->setObjectName(QStringLiteral("lampblack.panel.render_changed"));
@@ -64,6 +98,8 @@ RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction
     choices->addWidget(mRange, 0, 1);
     choices->addWidget(new QLabel(tr("Quality"), this), 1, 0);
     choices->addWidget(mQuality, 1, 1);
+    choices->addWidget(new QLabel(tr("Layers"), this), 2, 0);
+    choices->addWidget(mApart, 2, 1);
     body()->addWidget(buttonFor(surfaces, QStringLiteral("lampblack.panel.generate"), this));
     body()->addLayout(choices);
     body()->addWidget(mHide);
@@ -82,6 +118,11 @@ RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction
     connect(&document, &SceneDocument::sceneChanged, this, &RenderSection::refresh);
     setOutdated(0, 0);
     refresh();
+}
+
+ApartKind RenderSection::apart() const
+{
+    return static_cast<ApartKind>(mApart->currentData().toInt());
 }
 
 void RenderSection::updateRenderText()

@@ -27,6 +27,7 @@ public:
 
     ShotRange range() const { return static_cast<ShotRange>(mRange->currentIndex()); }
     bool hidesSources() const { return mHide->isChecked(); }
+    ApartKind apart() const;
 
 Q_SIGNALS:
     void renderChangedRequested();
@@ -39,6 +40,7 @@ private:
     QAction& mRender;
     QComboBox* mRange;
     QComboBox* mQuality;
+    QComboBox* mApart;
     QCheckBox* mHide;
     QPushButton* mRenderAll;
     QLabel* mOutdated;

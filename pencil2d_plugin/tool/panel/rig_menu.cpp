@@ -13,6 +13,7 @@
 #include <QProxyStyle>
 #include <QVector3D>
 
+#include <algorithm>
 #include <cmath>
 
 // Resources of a static library must be initialised, and from outside any namespace.
@@ -27,7 +28,7 @@ namespace lampblack
 namespace
 {
 
-constexpr int IconSide = 32;
+constexpr int IconSide = 56;
 const QString MimeType = QStringLiteral("application/x-lampblack-rig+json");
 
 class LargeIcons : public QProxyStyle
@@ -130,8 +131,31 @@ void RigMenu::addPresets()
         const QByteArray id = rig.name.toLower().replace(QLatin1Char(' '), QLatin1Char('-')).toUtf8();
         QAction* action = addEntry(id.constData(), rig.name, tr("These lights in place of your own"),
                                    [this, rig] { use(rig, mFigure ? mFigure() : QRectF()); });
-        action->setIcon(rigIcon(rig, IconSide, devicePixelRatioF()));
+        mPresets << Preset{QString::fromUtf8(id), action, rigIcon(rig, IconSide, devicePixelRatioF())};
     }
+    setPictures({});
+}
+
+void RigMenu::setPictures(const QVector<RigSketch>& sketches)
+{
+    for (const Preset& preset : qAsConst(mPresets))
+    {
+        const auto sketch = std::find_if(sketches.begin(), sketches.end(),
+                                         [&](const RigSketch& each) { return each.name == preset.name; });
+        if (sketch == sketches.end())
+        {
+            preset.action->setIcon(preset.ball);
+            continue;
+        }
+        QPixmap picture = QPixmap::fromImage(sketch->picture);
+        picture.setDevicePixelRatio(double(picture.width()) / IconSide);
+        preset.action->setIcon(QIcon(picture));
+    }
+}
+
+int RigMenu::pictureSide() const
+{
+    return int(std::lround(IconSide * devicePixelRatioF()));
 }
 
 QAction* RigMenu::addEntry(const char* name, const QString& text, const QString& hint,

@@ -3,6 +3,7 @@
 
 #include "host/host.h"
 #include "scene/scene_document.h"
+#include "worker/worker.h"
 
 #include <QMenu>
 
@@ -23,10 +24,21 @@ public:
     /// everywhere.
     void setFigure(std::function<QRectF()> figure) { mFigure = std::move(figure); }
 
+    /// Show the sets by these pictures of the drawing; those without one by a ball in their light.
+    void setPictures(const QVector<RigSketch>& sketches);
+    int pictureSide() const; ///< of a picture, device pixels
+
 Q_SIGNALS:
     void problem(const lampblack::UserError& error);
 
 private:
+    struct Preset
+    {
+        QString name; ///< as the worker calls it
+        QAction* action;
+        QIcon ball;
+    };
+
     void addPresets();
     QAction* addEntry(const char* name, const QString& text, const QString& hint,
                       const std::function<void()>& onTriggered);
@@ -39,6 +51,7 @@ private:
     Host& mHost;
     SceneDocument& mDocument;
     std::function<QRectF()> mFigure;
+    QVector<Preset> mPresets;
 };
 
 /// The rigs that come with Lampblack, in the order in which they are shown.

@@ -1,6 +1,7 @@
 // The lit layers reach the worker together and apart, and only what has changed is exported again.
 #include "plugin/frame_feed.h"
 #include "plugin/layers_apart.h"
+#include "scene/layer_roles.h"
 #include "support/fake_host.h"
 #include "support/fake_worker.h"
 
@@ -110,6 +111,51 @@ private Q_SLOTS:
         Q_EMIT puppet.host.layersChanged();
         QCOMPARE(puppet.takeRequests(), QVector<QStringList>{{Notes}});
         QVERIFY(puppet.worker.mLayers.last().isEmpty());
+    }
+
+    void paintedLightIsSentAndIsNoPartOfTheDrawing()
+    {
+        Puppet puppet;
+        puppet.host.mLayers.prepend({lightLayer(), Layer::Kind::Bitmap, true});
+        puppet.painted[lightLayer()] = QImage(40, 30, QImage::Format_RGBA8888);
+        puppet.painted[lightLayer()].fill(Qt::transparent);
+        Q_EMIT puppet.host.layersChanged();
+        QCOMPARE(namesOf(puppet.worker.mLayers.last()), (QStringList{Body, Arm}));
+
+        puppet.paint(lightLayer(), QRect(10, 10, 5, 5), Qt::yellow);
+        puppet.host.mCurrentLayer = lightLayer();
+        Q_EMIT puppet.host.drawingChanged(1);
+        QTRY_COMPARE(puppet.worker.mPut.size(), 3);
+        const DrawnLayers layers = puppet.worker.mLayers.last();
+        QCOMPARE(namesOf(layers), (QStringList{Body, Arm, lightLayer()}));
+        QCOMPARE(layers.last().pixels, puppet.painted.value(lightLayer()));
+        QCOMPARE(puppet.feed.lastExport(1).image, puppet.drawing(1, {Arm, Body}));
+
+        // It is sent with a drawing of one layer too, and not while its eye is closed.
+        puppet.painted[Arm].fill(Qt::transparent);
+        Q_EMIT puppet.host.layersChanged();
+        QCOMPARE(namesOf(puppet.worker.mLayers.last()), QStringList{lightLayer()});
+        puppet.host.mLayers.first().visible = false;
+        Q_EMIT puppet.host.layersChanged();
+        QVERIFY(puppet.worker.mLayers.last().isEmpty());
+    }
+
+    void paintedLightMayBeHeldOverSeveralDrawings()
+    {
+        Puppet puppet;
+        puppet.host.mLayers.prepend({lightLayer(), Layer::Kind::Bitmap, true});
+        puppet.painted[lightLayer()] = puppet.painted.value(Body);
+        Q_EMIT puppet.host.layersChanged();
+        puppet.paint(Body, QRect(1, 1, 5, 5), Qt::white);
+        puppet.host.goToFrame(2);
+        QVERIFY(puppet.feed.isUpToDate(1) && puppet.feed.isUpToDate(2));
+        QSignalSpy same(&puppet.feed, &FrameFeed::frameSame);
+        puppet.paint(lightLayer(), QRect(1, 1, 5, 5), Qt::white);
+        puppet.host.mCurrentLayer = lightLayer();
+        Q_EMIT puppet.host.drawingChanged(2);
+        QVERIFY(!puppet.feed.isUpToDate(1));
+        QTRY_VERIFY(puppet.feed.isUpToDate(2));
+        QVERIFY2(same.isEmpty(), "the drawing is the same, and its light is not");
     }
 
     void onlyTheLayerThatChangedIsExportedAgain()

@@ -56,7 +56,7 @@ private Q_SLOTS:
     void framesBecomeTheLayer()
     {
         Shot shot;
-        shot.job.render({1, 8}, true);
+        shot.job.render({1, 8}, {true});
         QCOMPARE(shot.worker.mFrames, QStringLiteral("1-8"));
         shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
         shot.worker.endJob();
@@ -81,7 +81,7 @@ private Q_SLOTS:
         Q_EMIT shot.host.projectOpened(shot.host.mProject);
         Q_EMIT shot.host.layersChanged();
         shot.host.mModified = false;
-        shot.job.render({1, 8}, true);
+        shot.job.render({1, 8}, {true});
         QCOMPARE(shot.worker.mProject, shot.host.mProject);
         QCOMPARE(shot.worker.mFrames, QStringLiteral("1-8"));
         QVERIFY(shot.worker.mPut.isEmpty());
@@ -91,7 +91,7 @@ private Q_SLOTS:
         QCOMPARE(shot.host.mDelivered.size(), 8);
 
         // The result layer, and the sources that are hidden behind it, are no change to what is lit.
-        shot.job.render({1, 8}, true);
+        shot.job.render({1, 8}, {true});
         QCOMPARE(shot.worker.mProject, shot.host.mProject);
     }
 
@@ -99,7 +99,7 @@ private Q_SLOTS:
     {
         Shot shot;
         Q_EMIT shot.host.layersChanged();
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         QVERIFY(shot.worker.mProject.isEmpty());
         QCOMPARE(shot.worker.mPut.size(), 8);
         shot.job.cancel();
@@ -108,22 +108,22 @@ private Q_SLOTS:
         shot.host.mModified = false;
         shot.host.mLayers.last().visible = false;
         Q_EMIT shot.host.layersChanged();
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         QVERIFY(shot.worker.mProject.isEmpty());
         shot.job.cancel();
         Q_EMIT shot.host.projectSaved(shot.host.mProject);
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         QCOMPARE(shot.worker.mProject, shot.host.mProject);
     }
 
     void partJoinsWhatIsThere()
     {
         Shot shot;
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
         shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
-        shot.job.render({3, 3}, true);
+        shot.job.render({3, 3}, {true});
         QCOMPARE(shot.worker.mFrames, QStringLiteral("3"));
         shot.worker.finishFrames({3});
         shot.worker.endJob();
@@ -134,7 +134,7 @@ private Q_SLOTS:
     void partAloneHidesNothing()
     {
         Shot shot;
-        shot.job.render({3, 4}, true);
+        shot.job.render({3, 4}, {true});
         shot.worker.finishFrames({3, 4});
         shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
@@ -146,13 +146,13 @@ private Q_SLOTS:
     void cancelledJobGoesOn()
     {
         Shot shot;
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         shot.worker.finishFrames({1, 2, 3});
         shot.job.cancel();
         QCOMPARE(shot.worker.mCancelled, 1);
         QVERIFY(shot.host.mDelivered.isEmpty());
         Q_EMIT shot.host.drawingChanged(2);
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         QCOMPARE(shot.worker.mFrames, QStringLiteral("2,4-8"));
         shot.worker.finishFrames({4});
         shot.job.cancel();
@@ -160,18 +160,18 @@ private Q_SLOTS:
         Scene scene = shot.document.scene();
         scene.reliefScale = 0.5;
         shot.document.edit(QStringLiteral("Flatten"), scene);
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         QCOMPARE(shot.worker.mFrames, QStringLiteral("1-8"));
     }
 
     void frameDrawnUponMeanwhileIsMadeAgain()
     {
         Shot shot;
-        shot.job.render({1, 4}, false);
+        shot.job.render({1, 4}, {false});
         Q_EMIT shot.host.drawingChanged(2);
         shot.worker.finishFrames({1, 2});
         shot.job.cancel();
-        shot.job.render({1, 4}, false);
+        shot.job.render({1, 4}, {false});
         QCOMPARE(shot.worker.mFrames, QStringLiteral("2-4"));
     }
 
@@ -179,7 +179,7 @@ private Q_SLOTS:
     {
         Shot shot;
         shot.broken = {5};
-        shot.job.render({1, 6}, false);
+        shot.job.render({1, 6}, {false});
         Q_EMIT shot.worker.problem({QStringLiteral("No light."), {}, QStringLiteral("frame 2")});
         shot.worker.finishFrames({1, 3, 4, 6});
         shot.worker.endJob();
@@ -196,7 +196,7 @@ private Q_SLOTS:
     {
         Shot shot;
         shot.host.mLayers.append({QStringLiteral("Lit"), Layer::Kind::Bitmap, true});
-        shot.job.render({1, 2}, false);
+        shot.job.render({1, 2}, {false});
         shot.worker.finishFrames({1, 2});
         shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
@@ -208,7 +208,7 @@ private Q_SLOTS:
     {
         Shot shot;
         QVERIFY(QDir().mkpath(backupPath(shot.host.mProject) + QStringLiteral("/in the way")));
-        shot.job.render({1, 2}, false);
+        shot.job.render({1, 2}, {false});
         shot.worker.finishFrames({1, 2});
         shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);
@@ -219,7 +219,7 @@ private Q_SLOTS:
     void projectOpenedMeanwhileIsLeftAlone()
     {
         Shot shot;
-        shot.job.render({1, 2}, false);
+        shot.job.render({1, 2}, {false});
         shot.worker.finishFrames({1, 2});
         shot.worker.endJob();
         shot.host.mProject = shot.folder.filePath(QStringLiteral("other.pclx"));
@@ -250,7 +250,7 @@ private Q_SLOTS:
         Shot shot;
         const ProjectScene project(shot.host, shot.document, shot.layer);
         shot.host.mWindow.show();
-        shot.job.render({1, 8}, false);
+        shot.job.render({1, 8}, {false});
         shot.worker.finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
         shot.worker.endJob();
         QTRY_COMPARE(shot.ended.size(), 1);

@@ -1,8 +1,11 @@
 // The plugin as a whole: "Generate Surfaces" and "Render All Frames", from the button to the end.
+#include "protocol/generated/apart_layers.h"
+#include "scene/layer_roles.h"
 #include "support/studio_test.h"
 
 #include <QAbstractButton>
 #include <QComboBox>
+#include <QDir>
 #include <QLabel>
 #include <QProgressBar>
 
@@ -21,6 +24,39 @@ private:
             if (action->objectName() == wanted)
                 return action;
         return nullptr;
+    }
+    void chooseApart(ApartKind kind) const
+    {
+        auto* apart = find<QComboBox>("panel.apart");
+        apart->setCurrentIndex(apart->findData(int(kind)));
+    }
+    static QString layerOf(const char* folder) { return resultLayer(QLatin1String(folder)); }
+    /// The worker writes its files: of highlight, rim and glow, blank ones.
+    void finishApart()
+    {
+        for (const char* folder : protocol::ApartLayers)
+        {
+            const QString path = mFolder->filePath(QStringLiteral("walk_lit/") + QLatin1String(folder));
+            QVERIFY(QDir().mkpath(path));
+            QImage picture(4, 3, QImage::Format_ARGB32);
+            const QStringList drawn{QStringLiteral("drawing"), QStringLiteral("floor_shadow"),
+                                    QStringLiteral("shade"), QStringLiteral("light")};
+            picture.fill(drawn.contains(QLatin1String(folder)) ? Qt::red : Qt::transparent);
+            for (int frame = 1; frame <= 8; ++frame)
+                QVERIFY(picture.save(QStringLiteral("%1/walk.000%2.png").arg(path).arg(frame)));
+        }
+        mWorker->finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        mWorker->endJob();
+        QTRY_VERIFY(!isWorking());
+    }
+    /// Top first.
+    QStringList visibleResults() const
+    {
+        QStringList names;
+        for (const Layer& layer : qAsConst(mHost->mLayers))
+            if (layer.visible && isResult(layer.name, {}))
+                names << layer.name;
+        return names;
     }
     bool isWorking() const { return !find<QWidget>("panel.job")->isHidden(); }
 
@@ -103,6 +139,60 @@ private Q_SLOTS:
         QCOMPARE(mWorker->mCancelled, 1);
         QVERIFY(!cancel->isVisible());
         QVERIFY(!entry("cancel")->isEnabled());
+    }
+
+    void framesTakenApartBecomeLayers()
+    {
+        chooseApart(ApartKind::Pencil2d);
+        click("panel.render");
+        QCOMPARE(mWorker->mApart, ApartKind::Pencil2d);
+        QCOMPARE(mWorker->mOutput, mFolder->filePath(QStringLiteral("walk_lit/walk.%04d.png")));
+        finishApart();
+        const QStringList made{layerOf("drawing"), layerOf("floor_shadow"), layerOf("shade"),
+                               layerOf("light")};
+        QCOMPARE(mHost->mAllDelivered, made); // nothing is drawn in the others
+        QCOMPARE(mHost->mDelivered.value(8),
+                 mFolder->filePath(QStringLiteral("walk_lit/light/walk.0008.png")));
+        QVERIFY(mHost->mStatus.contains(QStringLiteral("\"Lit: …\"")));
+        QCOMPARE(visibleResults(), (QStringList{made[3], made[2], made[1], made[0]}));
+
+        // One picture takes their place, and they its.
+        chooseApart(ApartKind::None);
+        click("panel.render");
+        mWorker->finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        mWorker->endJob();
+        QTRY_VERIFY(!isWorking());
+        QCOMPARE(visibleResults(), QStringList{QStringLiteral("Lit")});
+        chooseApart(ApartKind::Pencil2d);
+        click("panel.render");
+        finishApart();
+        QCOMPARE(visibleResults().size(), made.size());
+    }
+
+    void whatHasChangedStaysApart()
+    {
+        mHost->open();
+        chooseApart(ApartKind::Pencil2d);
+        click("panel.render");
+        finishApart();
+        chooseApart(ApartKind::None);
+        draw();
+        QTRY_VERIFY(!find<QWidget>("panel.render_changed")->isHidden());
+        click("panel.render_changed");
+        QTRY_COMPARE(mWorker->mFrames, QStringLiteral("1"));
+        QCOMPARE(mWorker->mApart, ApartKind::Pencil2d);
+    }
+
+    void framesInExrAreFilesOnly()
+    {
+        chooseApart(ApartKind::Exr);
+        click("panel.render");
+        QCOMPARE(mWorker->mOutput, mFolder->filePath(QStringLiteral("walk_lit/walk.%04d.exr")));
+        mWorker->finishFrames({1, 2, 3, 4, 5, 6, 7, 8});
+        mWorker->endJob();
+        QTRY_VERIFY(!isWorking());
+        QVERIFY(mHost->mAllDelivered.isEmpty());
+        QVERIFY(mHost->mStatus.contains(QLatin1String("8 of 8 frames are in")));
     }
 
     void renderWithoutAProjectIsRefused()

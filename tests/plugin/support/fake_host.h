@@ -82,8 +82,16 @@ public:
     void deliverLayer(const QString& name, const QMap<int, QString>& pictures) override
     {
         mDelivered = pictures;
-        if (mLayers.first().name != name)
-            mLayers.prepend({name, Layer::Kind::Bitmap, true});
+        mAllDelivered << name;
+        for (int row = 0; row < mLayers.size(); ++row)
+        {
+            if (mLayers[row].name == name)
+            {
+                mLayers.remove(row);
+                break;
+            }
+        }
+        mLayers.prepend({name, Layer::Kind::Bitmap, true});
         Q_EMIT layersChanged();
         Q_EMIT layerDelivered(name);
     }
@@ -146,7 +154,8 @@ public:
     QString mProject;
     int mSaved = 0;
     std::function<bool()> mMayLeave;
-    QMap<int, QString> mDelivered;
+    QMap<int, QString> mDelivered; ///< the last layer
+    QStringList mAllDelivered;     ///< names of the layers, in order
     QVector<Request> mRequests;
     int mCancelled = 0;
     /// What these layers of a frame show. With it each request is answered at once, and a null image means

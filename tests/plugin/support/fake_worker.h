@@ -64,9 +64,11 @@ public:
     void cancelPreview() override { ++mPreviewsCancelled; }
     void requestPalette(int frame) override { mPalettes.append(frame); }
     void requestOverlaps(int frame) override { mOverlaps.append(frame); }
-    quint64 render(const QString& frames, const QString& output, Quality quality,
-                   const QString& project) override
+    void requestRigs(int frame, int side) override { mRigs.append({frame, side}); }
+    quint64 render(const QString& frames, const QString& output, Quality quality, const QString& project,
+                   ApartKind apart) override
     {
+        mApart = apart;
         mFrames = frames;
         mOutput = output;
         mQuality = quality;
@@ -117,11 +119,13 @@ public:
     QVector<PreviewRequest> mPreviews;
     int mPreviewsCancelled = 0;
     QVector<int> mPalettes;
-    QVector<int> mOverlaps; ///< frames whose overlaps were asked for
-    QString mFrames;        ///< of the last job, as are the next three
+    QVector<int> mOverlaps;         ///< frames whose overlaps were asked for
+    QVector<QPair<int, int>> mRigs; ///< frames whose rigs were asked for, and the sides of their pictures
+    QString mFrames;                ///< of the last job, as are the next four
     QString mOutput;
     Quality mQuality = Quality::Low;
     QString mProject; ///< that is rendered from its file
+    ApartKind mApart = ApartKind::None;
     quint64 mJob = 0;
     int mCancelled = 0;
 };

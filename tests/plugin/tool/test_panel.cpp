@@ -1,11 +1,13 @@
 // Panel and document agree, both ways, and neither echoes.
 #include "support/fake_host.h"
+#include "support/fake_worker.h"
 #include "support/scenes.h"
 #include "tool/panel/colour_button.h"
 #include "tool/panel/elided_label.h"
 #include "tool/panel/lamp_panel.h"
 #include "tool/panel/light_links.h"
 #include "tool/panel/rig_menu.h"
+#include "tool/panel/rig_pictures.h"
 #include "tool/panel/value_row.h"
 
 #include <QCheckBox>
@@ -236,11 +238,21 @@ private Q_SLOTS:
         choose("light.layers", QStringLiteral("All"));
         QVERIFY(light().layers.isEmpty());
         mHost->mFrame = 4;
-        find<QCheckBox>("light.pinned")->click();
+        auto* pin = find<QToolButton>("light.pin");
+        QCOMPARE(pin->text(), QStringLiteral("nothing"));
+        choose("light.pin", QStringLiteral("What Is Beneath It Here"));
         QCOMPARE(light().pin->frame, 4);
         QCOMPARE(light().pin->x, light().x);
+        QVERIFY(light().pin->layer.isEmpty());
         mDocument->undoStack()->undo();
-        QVERIFY(!light().pin && !find<QCheckBox>("light.pinned")->isChecked());
+        QVERIFY(!light().pin);
+        choose("light.pin", QStringLiteral("Line"));
+        QCOMPARE(light().pin->layer, QStringLiteral("Line"));
+        QCOMPARE(pin->text(), QStringLiteral("Line"));
+        choose("light.pin", QStringLiteral("Nothing"));
+        QVERIFY(!light().pin);
+        QTest::mouseClick(find<QToolButton>("sun"), Qt::LeftButton);
+        QVERIFY2(!pin->isEnabled(), "only the direction of a sun counts");
     }
 
     void aSwitchedLightKeepsItsKeys()
@@ -331,6 +343,40 @@ private Q_SLOTS:
         QVERIFY(mDocument->scene() == before);
         entry("paste")->trigger();
         QVERIFY2(mDocument->scene().lights == lit.lights, "as on another shot's canvas of the same size");
+    }
+
+    void setsAreShownOnTheCurrentDrawing()
+    {
+        FakeWorker worker;
+        auto* menu = mPanel->findChild<RigMenu*>();
+        const RigPictures pictures(*mHost, worker, *menu);
+        const auto middle = [menu]
+        {
+            auto* action = menu->findChild<QAction*>(QStringLiteral("lampblack.rigs.moon"));
+            const QImage icon = action->icon().pixmap(menu->pictureSide()).toImage();
+            return icon.pixelColor(icon.rect().center());
+        };
+        const QColor ball = middle();
+        const auto answer = [&worker](int frame, Qt::GlobalColor colour)
+        {
+            QImage picture(56, 56, QImage::Format_RGBA8888_Premultiplied);
+            picture.fill(colour);
+            Q_EMIT worker.rigsArrived(frame, {{QStringLiteral("moon"), picture}});
+        };
+        Q_EMIT menu->aboutToShow();
+        QCOMPARE(worker.mRigs, (QVector<QPair<int, int>>{{1, menu->pictureSide()}}));
+        QCOMPARE(middle(), ball);
+        answer(2, Qt::blue); // of another frame: later
+        QCOMPARE(middle(), ball);
+        answer(1, Qt::green);
+        QCOMPARE(middle(), QColor(Qt::green));
+        mHost->goToFrame(2);
+        Q_EMIT menu->aboutToShow();
+        QCOMPARE(middle(), QColor(Qt::blue));
+        Q_EMIT mHost->drawingChanged(2);
+        Q_EMIT menu->aboutToShow();
+        QCOMPARE(middle(), ball);
+        QCOMPARE(worker.mRigs.size(), 3);
     }
 
     void theDepthOfALayerIsChosenAndUndone()

@@ -153,6 +153,10 @@ private:
                 R"("type":"overlaps","request":%1,"frame":%2,"digest":"%3","overlaps":[{"points":[{"x":1,"y":2},{"x":3,"y":2}],"front":"right","amount":4}])",
                 {number(header, "request"), QString::number(frame), mShown.value(frame)});
         }
+        else if (type == QLatin1String("get_rigs"))
+        {
+            rigs(header);
+        }
         else if (type == QLatin1String("render"))
         {
             render(header);
@@ -185,7 +189,8 @@ private:
             QStringLiteral(
                 R"("type":"welcome","minor":3,"session":"%1","worker_version":"fake","capabilities":[%2],"status_ms":%3)"),
             {QString::number(QCoreApplication::applicationPid()).rightJustified(32, QLatin1Char('0')),
-             mScript == "no_layers" ? QString() : QStringLiteral("\"layers\""), QString::number(StatusMs)});
+             mScript == "no_layers" ? QString() : QStringLiteral("\"layers\",\"rigs\""),
+             QString::number(StatusMs)});
         if (mScript == "babbles")
         {
             babble();
@@ -272,6 +277,24 @@ private:
         }
         send(R"("type":"done","request":%1,"outcome":"finished","frames_done":2,"frames_total":2)",
              {request});
+    }
+
+    /// Two rigs: the picture of the first is of zeros, that of the second of ones.
+    void rigs(const QJsonObject& header)
+    {
+        const int frame = header.value(QLatin1String("frame")).toInt();
+        const int side = header.value(QLatin1String("side")).toInt();
+        const QString body =
+            QStringLiteral(R"({"lampblack":1,"type":"rigs","request":%1,"frame":%2,"digest":"%3",)"
+                           R"("names":["key","moon"],"rigs":["{}","{}"],"planes":[{"role":"picture",)"
+                           R"("format":"rgba8_premultiplied","width":%4,"height":%5,"stride":%6}]})")
+                .arg(number(header, "request"))
+                .arg(frame)
+                .arg(mShown.value(frame))
+                .arg(side)
+                .arg(2 * side)
+                .arg(4 * side);
+        sendRaw({body.toLatin1(), QByteArray(4 * side * side, '\0') + QByteArray(4 * side * side, '\1')});
     }
 
     QByteArray imageHeader(int request, int frame, const QByteArray& digest, int revision, int pass)

@@ -11,6 +11,7 @@
 #include <QTimer>
 #include <QtTest>
 
+#include <algorithm>
 #include <csignal>
 
 using namespace lampblack;
@@ -268,6 +269,40 @@ private Q_SLOTS:
         QCOMPARE(overlap.points.size(), 2);
         QCOMPARE(overlap.points[1].x, 3.0);
         QCOMPARE(overlap.front, FrontSide::Right);
+    }
+
+    void rigsComeWithTheirPictures()
+    {
+        const auto session = open("good");
+        const QSignalSpy arrived(session.get(), &Worker::rigsArrived);
+        session->requestRigs(1, 20);
+        session->putFrame(1, sheet(Qt::red));
+        session->setScene(sceneLitFrom(1));
+        session->requestRigs(1, 20);
+        QTRY_COMPARE(arrived.count(), 1);
+        const auto rigs = arrived[0][1].value<QVector<RigSketch>>();
+        QCOMPARE(rigs.size(), 2);
+        QCOMPARE(rigs[1].name, QStringLiteral("moon"));
+        QCOMPARE(rigs[1].picture.size(), QSize(20, 20));
+        QCOMPARE(rigs[0].picture.constScanLine(19)[79], uchar(0));
+        QCOMPARE(rigs[1].picture.constScanLine(0)[0], uchar(1));
+    }
+
+    void aRenderIsTakenApart()
+    {
+        const auto session = open("good");
+        lookAtOne(*session);
+        const QSignalSpy done(session.get(), &Worker::renderDone);
+        session->render(QStringLiteral("1"), QStringLiteral("/tmp/a.%04d.exr"), Quality::Low, {},
+                        ApartKind::Exr);
+        QTRY_COMPARE(done.count(), 1);
+        const QList<QJsonObject> headers = received();
+        const auto render =
+            std::find_if(headers.begin(), headers.end(),
+                         [](const QJsonObject& header)
+                         { return header.value(QLatin1String("type")) == QLatin1String("render"); });
+        QVERIFY(render != headers.end());
+        QCOMPARE(render->value(QLatin1String("apart")).toString(), QStringLiteral("exr"));
     }
 
     void layersAreSentApart_data()

@@ -18,7 +18,8 @@ Roles = Mapping[str, LayerRole]
 ROLES_FIELD = "pencil2d_layers"
 """The scene's extra field in which the Pencil2D plugin stores the roles."""
 RESULT_LAYER = "Lit"
-"""The layer of rendered frames that the Pencil2D plugin adds; it is never lit itself."""
+"""The layer of rendered frames that the Pencil2D plugin adds; it is never lit itself. Taken apart,
+they are several layers: "Lit: shade" and so on."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,8 @@ def is_painted_light(name: str, roles: Roles) -> bool:
 
 
 def _is_result(layer: Layer, roles: Roles) -> bool:
-    return layer.name == RESULT_LAYER and layer.name not in roles
+    made = layer.name == RESULT_LAYER or layer.name.startswith(f"{RESULT_LAYER}: ")
+    return made and layer.name not in roles
 
 
 def _check_names(project: Project, roles: Roles) -> None:

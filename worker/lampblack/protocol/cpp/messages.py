@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import re
 
+from ...composite.apart import LAYERS
 from .. import job, limits, planes, preview, session, version
 from .. import messages as catalogue
 from ..connection import Connection
@@ -42,6 +43,7 @@ def files() -> dict[str, str]:
         "protocol/generated/message_fields.h": _fields(),
         "protocol/generated/error_code.h": _error_codes(),
         "protocol/generated/limits.h": _limits(),
+        "protocol/generated/apart_layers.h": _apart_layers(),
     }
 
 
@@ -67,6 +69,14 @@ def _types() -> str:
     includes += [*(f"#include <{name}>" for name in qt), "", "#include <variant>"]
     doc = "Every message, as SPEC 8 has them. The decoder checks ranges; who encodes owes them."
     return cpp.header(heading(SOURCE, doc), includes, NAMESPACE, parts)
+
+
+def _apart_layers() -> str:
+    doc = "The folders of layers that a frame is taken apart into, lowest first."
+    names = ", ".join(f'"{name}"' for name, _ in LAYERS)
+    parts = [f"constexpr std::array<const char*, {len(LAYERS)}> ApartLayers = {{{{{names}}}}};\n"]
+    source = "worker/lampblack/composite/apart.py"
+    return cpp.header(heading(source, doc), ["#include <array>"], NAMESPACE, parts)
 
 
 def _fields() -> str:
