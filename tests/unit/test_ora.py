@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -9,12 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from lampblack.drawing import read_picture
 from lampblack.errors import LampblackWarning, ProjectError
+from lampblack.project import blend as blends
 from lampblack.project import read_project
-from lampblack.project.blend import Blend, blended
+from lampblack.project.blend import Blend
 from lampblack.project.shot import ProjectShot
 from lampblack.project.stack import Roles
 from lampblack.shot import MAX_LAYERS
+from support.layered import apart
+from support.paths import ROOT
 from support.projects import png
 
 
@@ -133,6 +138,12 @@ def test_the_opacity_of_a_group_is_that_of_the_whole(tmp_path: Path) -> None:
     assert picture[7, 7].tolist() == [0, 0, 200, 128]
 
 
+def blended(below: np.ndarray, above: np.ndarray, mode: Blend, opacity: float, **how: Any) -> Any:
+    """Of bytes."""
+    floats = (np.divide(picture, 255, dtype=np.float32) for picture in (below, above))
+    return np.rint(blends.blended(*floats, mode, opacity, **how) * 255).astype(np.uint8)
+
+
 UNDER, OVER = (80, 220, 0, 255), (200, 100, 0, 255)
 MIXED = {  # of 200 and 100 over 80 and 220, by hand
     "multiply": (200 * 80 / 255, 100 * 220 / 255),
@@ -183,6 +194,36 @@ def test_masks_cut_what_is_below() -> None:
     assert blended(below, above, "dst-in", 1)[0, 0].tolist() == [9, 8, 7, 80]
     assert blended(below, above, "dst-out", 1)[0, 0].tolist() == [9, 8, 7, 120]
     assert blended(below, above, "dst-atop", 1)[0, 0, 3] == 102
+
+
+def test_a_file_that_krita_wrote_looks_as_in_krita() -> None:
+    path = ROOT / "tests/data/layers/krita.ora"
+    with zipfile.ZipFile(path) as archive:
+        merged = read_picture(io.BytesIO(archive.read("mergedimage.png")), "merged")
+    shot = shot_of(path)
+    assert apart(shot.cel(shot.frames[0]).pixels, merged).max() <= 2
+
+
+@pytest.mark.parametrize("mypaint", [False, True])
+def test_adding_is_light_in_mypaint_and_a_blend_elsewhere(tmp_path: Path, mypaint: bool) -> None:
+    """They differ where a bright layer is translucent."""
+    glow = '<layer name="glow" src="data/r.png" opacity="0.5" composite-op="svg:plus"/>'
+    named = ' xmlns:mypaint="http://mypaint.org/ns/openraster"' if mypaint else ""
+    path = write_ora(tmp_path, glow + FIGURE, f'w="31" h="20"{named}')
+    shot = shot_of(path)
+    red = int(shot.cel(shot.frames[0]).pixels[2, 2, 0])
+    assert red == (255 if mypaint else round((200 + 255) / 2))
+
+
+def test_a_clipped_layer_goes_with_what_it_is_clipped_to(tmp_path: Path) -> None:
+    stack = SHADE.format("svg:src-atop", "") + FIGURE + '<layer name="paper" src="data/g.png"/>'
+    shot = shot_of(write_ora(tmp_path, stack), {"figure": "character"})
+    lit = shot.cel(shot.frames[0]).pixels
+    assert lit[7, 7].tolist() == BLUE[0, 0].tolist()
+    shot = shot_of(write_ora(tmp_path, stack), {"figure": "character", "shade": "background"})
+    assert shot.cel(shot.frames[0]).pixels[7, 7].tolist() == RED[0, 0].tolist()
+    finished = shot.finish(shot.frames[0], shot.cel(shot.frames[0]).pixels)
+    assert finished[7, 7].tolist() == BLUE[0, 0].tolist()
 
 
 def test_a_layer_that_touches_up_is_no_body(tmp_path: Path) -> None:

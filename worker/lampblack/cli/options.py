@@ -16,10 +16,10 @@ from ..finals.settings import RenderSettings
 
 OPTIONS: dict[str, Any] = {
     "input": typer.Argument(
-        metavar="INPUT", help="A picture, folder, walk.%04d.png, .pclx or .ora."
+        metavar="INPUT", help="A picture, folder, walk.%04d.png, .pclx, .ora or .psd."
     ),
     "inputs": typer.Argument(
-        metavar="INPUT", help="Picture, folder, walk.%04d.png, or one .pclx or .ora project."
+        metavar="INPUT", help="Picture, folder, walk.%04d.png, or one .pclx, .ora or .psd."
     ),
     "output": typer.Option(
         "-o",

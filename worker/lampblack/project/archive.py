@@ -5,15 +5,19 @@ Nothing is unpacked. Names, sizes and counts are untrusted input, and all of the
 
 from __future__ import annotations
 
+import io
 import zipfile
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ..drawing import read_picture
 from ..errors import ProjectError
 from ..files import open_regular, understood
 
 ORA = ".ora"
-SUFFIXES = (".pclx", ".pcl", ORA)
 MAX_XML_BYTES = 16 << 20
 MAX_FILE_BYTES = 128 << 20
 MAX_ENTRIES = 200_000
@@ -26,9 +30,6 @@ class Archive(Protocol):
     """Reads the files of one project."""
 
     path: Path
-
-    def xml(self) -> bytes:
-        """The XML that describes the project."""
 
     def has(self, name: str) -> bool:
         """Whether the data folder has such a file.
@@ -45,13 +46,23 @@ class Archive(Protocol):
                 too large.
         """
 
+    def picture(self, name: str, data: bytes, subject: str) -> NDArray[np.uint8]:
+        """(H, W, 4) uint8 sRGB, straight alpha: the picture in ``data``, which was read from the
+        file ``name``; ``subject`` is for the errors.
 
-def is_project(path: str | Path) -> bool:
-    """Whether ``path`` has the suffix of a Pencil2D project or an OpenRaster drawing."""
-    return Path(path).suffix.lower() in SUFFIXES
+        Raises:
+            DrawingError: it is no picture, is damaged or too large.
+        """
 
 
-def open_archive(path: Path) -> Archive:
+class Described(Archive, Protocol):
+    """The files of a project that XML describes."""
+
+    def xml(self) -> bytes:
+        """The description."""
+
+
+def open_archive(path: Path) -> Described:
     """Open the files of a project.
 
     Raises:
@@ -106,6 +117,9 @@ class _Zipped:
         _check_name(name)
         return self._read(f"data/{name}", limit)
 
+    def picture(self, name: str, data: bytes, subject: str) -> NDArray[np.uint8]:
+        return read_picture(io.BytesIO(data), subject)
+
     def _read(self, name: str, limit: int) -> bytes:
         if name not in self._names:
             raise _missing(self.path, name)
@@ -142,6 +156,9 @@ class _Folder:
         if path.is_file() and not path.resolve().is_relative_to(self._data.resolve()):
             raise _strays(name)
         return self._read(path, limit)
+
+    def picture(self, name: str, data: bytes, subject: str) -> NDArray[np.uint8]:
+        return read_picture(io.BytesIO(data), subject)
 
     def _read(self, path: Path, limit: int) -> bytes:
         try:

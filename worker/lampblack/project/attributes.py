@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import warnings
+from collections.abc import Collection
 from xml.etree.ElementTree import Element, ParseError
 
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import fromstring
 
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
-from ..errors import ProjectError
+from ..errors import LampblackWarning, ProjectError
 
 MAX_PLACE = 1_000_000
 
@@ -38,6 +40,16 @@ def check_size(width: int, height: int, subject: str) -> None:
             f"{subject} is {width} x {height} pixels.",
             f"At most {MAX_SIDE} a side and {MAX_PIXELS // 1_000_000} megapixels are lit.",
         )
+
+
+UNKNOWN_BLENDS = "have blend modes that Lampblack does not know; they are shown as if they had none"
+
+
+def tell_of_layers(names: Collection[str], file: str, what: str) -> None:
+    """Warn of layers of ``file``, if there are any."""
+    if names:
+        named = ", ".join(map(repr, sorted(names)[:8])) + (", ..." if len(names) > 8 else "")
+        warnings.warn(f"{file}: {named} {what}.", LampblackWarning, stacklevel=3)
 
 
 def whole(element: Element | None, name: str, default: int) -> int:

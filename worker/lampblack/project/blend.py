@@ -1,4 +1,5 @@
-"""Blend modes of layers, after W3C Compositing and Blending Level 1."""
+"""Blend modes of layers, after W3C Compositing and Blending Level 1, and those that Photoshop and
+Krita add to them."""
 
 from __future__ import annotations
 
@@ -10,14 +11,15 @@ from numpy.typing import NDArray
 
 Blend = Literal[
     "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge", "color-burn",
-    "hard-light", "soft-light", "difference", "hue", "saturation", "color", "luminosity",
+    "hard-light", "soft-light", "difference", "exclusion", "hue", "saturation", "color",
+    "luminosity", "linear-dodge", "linear-burn", "vivid-light", "linear-light", "pin-light",
+    "hard-mix", "subtract", "divide", "darker-color", "lighter-color",
     "plus", "dst-in", "dst-out", "dst-atop",
 ]  # fmt: skip
 """``plus``, ``dst-in`` and those after it are ways of compositing, without a blend of colours."""
 
 BLENDS: tuple[Blend, ...] = get_args(Blend)
 
-Picture = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
 _LUMA = np.array([0.3, 0.59, 0.11], np.float32)
@@ -25,17 +27,17 @@ _TINY = np.float32(1e-6)
 
 
 def blended(
-    below: Picture, above: Picture, blend: Blend, opacity: float, *, clipped: bool = False
-) -> Picture:
-    """``above`` on ``below``, both and the result (H, W, 4) uint8 sRGB with straight alpha.
+    below: Floats, above: Floats, blend: Blend, opacity: float, *, clipped: bool = False
+) -> Floats:
+    """``above`` on ``below``, both and the result (H, W, 4) float32 sRGB from 0 to 1 with straight
+    alpha.
 
     Args:
         opacity: of ``above``, 0 to 1.
         clipped: ``above`` shows only where ``below`` is, whose alpha stays as it is.
     """
-    back, front = (np.divide(p, 255, dtype=np.float32) for p in (below, above))
-    ab, cb = back[..., 3:], back[..., :3]
-    a, cs = front[..., 3:] * np.float32(opacity), front[..., :3]
+    ab, cb = below[..., 3:], below[..., :3]
+    a, cs = above[..., 3:] * np.float32(opacity), above[..., :3]
     if blend in ("dst-in", "dst-out", "dst-atop"):
         kept = 1 - a if blend == "dst-out" else a
         added = a * (1 - ab) if blend == "dst-atop" else np.float32(0)
@@ -53,9 +55,8 @@ def blended(
             alpha = a + ab * (1 - a)
             light = a * mixed + ab * cb * (1 - a)
     colour = light / np.maximum(alpha, _TINY)
-    result = np.concatenate([colour, alpha], axis=2)
-    levels: Picture = np.rint(np.clip(result, 0, 1) * 255).astype(np.uint8)
-    return levels
+    result: Floats = np.clip(np.concatenate([colour, alpha], axis=2), 0, 1)
+    return result
 
 
 def _screen(cb: Floats, cs: Floats) -> Floats:
@@ -80,6 +81,26 @@ def _dodge(cb: Floats, cs: Floats) -> Floats:
 def _burn(cb: Floats, cs: Floats) -> Floats:
     none = np.where(cb == 1, np.float32(1), np.float32(0))
     return np.where(cs > 0, 1 - np.minimum(1, (1 - cb) / np.maximum(cs, _TINY)), none)
+
+
+def _vivid_light(cb: Floats, cs: Floats) -> Floats:
+    """Burn or dodge, where black and white win over what is below."""
+    burnt = 1 - np.minimum(1, (1 - cb) / np.maximum(2 * cs, _TINY))
+    dodged = np.minimum(1, cb / np.maximum(2 * (1 - cs), _TINY))
+    return np.where(cs >= 1, np.float32(1), np.where(cs <= 0.5, burnt * (cs > 0), dodged))
+
+
+def _linear_light(cb: Floats, cs: Floats) -> Floats:
+    return np.clip(cb + 2 * cs - 1, 0, 1)
+
+
+def _pin_light(cb: Floats, cs: Floats) -> Floats:
+    return np.where(cs > 0.5, np.maximum(cb, 2 * cs - 1), np.minimum(cb, 2 * cs))
+
+
+def _hard_mix(cb: Floats, cs: Floats) -> Floats:
+    total = cb + cs
+    return np.asarray((total > 1) | ((total == 1) & (cb > 0.5)), np.float32)
 
 
 def _luma(colour: Floats) -> Floats:
@@ -116,6 +137,17 @@ _MIX: dict[str, Callable[[Floats, Floats], Floats]] = {
     "hard-light": _hard_light,
     "soft-light": _soft_light,
     "difference": lambda cb, cs: np.abs(cb - cs),
+    "exclusion": lambda cb, cs: cb + cs - 2 * cb * cs,
+    "linear-dodge": lambda cb, cs: np.minimum(1, cb + cs),
+    "linear-burn": lambda cb, cs: np.maximum(0, cb + cs - 1),
+    "vivid-light": _vivid_light,
+    "linear-light": _linear_light,
+    "pin-light": _pin_light,
+    "hard-mix": _hard_mix,
+    "subtract": lambda cb, cs: np.maximum(0, cb - cs),
+    "divide": lambda cb, cs: np.minimum(1, cb / np.maximum(cs, _TINY)),
+    "darker-color": lambda cb, cs: np.where(_luma(cs) < _luma(cb), cs, cb),
+    "lighter-color": lambda cb, cs: np.where(_luma(cs) > _luma(cb), cs, cb),
     "hue": lambda cb, cs: _with_luma(_with_range(cs, _range(cb)), _luma(cb)),
     "saturation": lambda cb, cs: _with_luma(_with_range(cb, _range(cs)), _luma(cb)),
     "color": lambda cb, cs: _with_luma(cs, _luma(cb)),

@@ -18,6 +18,24 @@ Kind = Literal["bitmap", "vector"]
 
 
 @dataclass(frozen=True)
+class Mask:
+    """A grey picture of how much of a layer or group shows: nothing where it is black.
+
+    Attributes:
+        file: the picture's name; see ``Key``.
+        left, top: position of its top left corner.
+        outside: its grey beyond its edges, 0 to 255.
+        density: of the mask itself, 0 to 1; at 0 all shows.
+    """
+
+    file: str
+    left: int = 0
+    top: int = 0
+    outside: int = 0
+    density: float = 1.0
+
+
+@dataclass(frozen=True)
 class Key:
     """A drawing on a layer.
 
@@ -25,6 +43,7 @@ class Key:
         file: name in the project's data folder; empty for a blank drawing.
         left, top: position of a bitmap's top left corner.
         opacity: 0 to 1.
+        masks: all of them are applied.
         inline: XML of a vector drawing that is in the description itself, as Pencil 0.4 wrote it.
     """
 
@@ -34,6 +53,7 @@ class Key:
     top: int = 0
     opacity: float = 1.0
     inline: bytes = b""
+    masks: tuple[Mask, ...] = ()
 
     @property
     def blank(self) -> bool:
@@ -43,11 +63,26 @@ class Key:
 
 @dataclass(frozen=True)
 class Group:
-    """Layers that are painted together on nothing, and then blended with what is below."""
+    """Layers that are painted together on nothing, and then blended with what is below.
+
+    Attributes:
+        clipped: the group shows only where what is below is.
+        masks: all of them are applied.
+        passes: its layers are blended with what is below one by one; opacity and masks mix the
+            result with what was there before.
+    """
 
     number: int
     opacity: float = 1.0
     blend: Blend = "normal"
+    clipped: bool = False
+    masks: tuple[Mask, ...] = ()
+    passes: bool = False
+
+    @property
+    def touches_up(self) -> bool:
+        """Whether it changes what is below rather than covering it."""
+        return self.clipped or self.blend != "normal"
 
 
 @dataclass(frozen=True)
@@ -72,7 +107,8 @@ class Layer:
     @property
     def touches_up(self) -> bool:
         """Whether it changes what is below rather than covering it."""
-        return self.clipped or self.blend != "normal"
+        own = self.clipped or self.blend != "normal"
+        return own or any(group.touches_up for group in self.groups)
 
     def key_at(self, frame: int) -> Key | None:
         """The drawing that ``frame`` shows; None before the first key."""

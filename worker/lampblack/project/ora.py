@@ -7,15 +7,21 @@ stack is the topmost (https://www.openraster.org, "Layer stack specification").
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
-from ..errors import LampblackWarning, ProjectError
-from .attributes import check_size, number, sound_xml, whole
+from ..errors import ProjectError
+from .attributes import (
+    UNKNOWN_BLENDS,
+    check_size,
+    number,
+    sound_xml,
+    tell_of_layers,
+    whole,
+)
 from .blend import BLENDS, Blend
 from .camera_layer import Camera, CameraKey
 from .document import Group, Key, Layer, Project
@@ -23,6 +29,9 @@ from .document import Group, Key, Layer, Project
 FOLDER = "data/"
 MAX_LAYERS = 1000
 MAX_DEPTH = 50
+MYPAINT = b"mypaint.org/ns/openraster"
+"""In the files of the one program that adds light as ``svg:plus`` says; the others blend colours by
+adding them."""
 PLAIN = "svg:src-over"
 OPERATIONS: dict[str, tuple[Blend, bool]] = {
     PLAIN: ("normal", False),
@@ -34,9 +43,10 @@ OPERATIONS: dict[str, tuple[Blend, bool]] = {
 
 @dataclass(frozen=True)
 class _Place:
-    """Position and visibility that a stack gives to the layers in it, and the groups that it
-    is in."""
+    """Position and visibility that a stack gives to the layers in it, the groups that it is in, and
+    what the file means by ``svg:plus``."""
 
+    adds: Blend
     left: int = 0
     top: int = 0
     visible: bool = True
@@ -62,16 +72,14 @@ def parse_stack(xml: bytes, name: str) -> Project:
     if sum(1 for _ in root.iter("layer")) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
     unknown = {e.get("name", "") for e in stack.iter() if _operation(e) not in OPERATIONS}
-    _tell(
-        unknown,
-        f"{name}: ",
-        "have blend modes that Lampblack does not know; they are shown as if they had none",
-    )
+    tell_of_layers(unknown, name, UNKNOWN_BLENDS)
     # Keys are positioned relative to the middle of the canvas, as in Pencil2D.
-    found = list(_layers(stack, _Place(-(width // 2), -(height // 2)), name, count()))
-    _tell(
+    adds: Blend = "plus" if MYPAINT in xml else "linear-dodge"
+    place = _Place(adds, -(width // 2), -(height // 2))
+    found = list(_layers(stack, place, name, count()))
+    tell_of_layers(
         {layer.name for layer in found if not _is_picture(layer)},
-        f"{name}: ",
+        name,
         "are text or vectors, which are left out. Turn them into pixels to see them",
     )
     layers = tuple(
@@ -84,12 +92,6 @@ def parse_stack(xml: bytes, name: str) -> Project:
     return Project(layers, (Camera("Canvas", width, height, (CameraKey(1),)),), 1, 1)
 
 
-def _tell(names: set[str], before: str, after: str) -> None:
-    if names:
-        named = ", ".join(map(repr, sorted(names)[:8]))
-        warnings.warn(f"{before}{named} {after}.", LampblackWarning, stacklevel=3)
-
-
 def _layers(stack: Element, place: _Place, name: str, numbers: Iterator[int]) -> Iterator[Layer]:
     """The layers, topmost first; ``numbers`` are for groups."""
     if place.depth > MAX_DEPTH:
@@ -97,7 +99,9 @@ def _layers(stack: Element, place: _Place, name: str, numbers: Iterator[int]) ->
     for element in stack:
         opacity = min(1.0, max(0.0, number(element, "opacity", 1.0)))
         blend, clipped = OPERATIONS.get(_operation(element), ("normal", False))
+        blend = place.adds if blend == "plus" else blend
         inner = _Place(
+            place.adds,
             place.left + whole(element, "x", 0),
             place.top + whole(element, "y", 0),
             place.visible and element.get("visibility", "visible") == "visible",
@@ -105,8 +109,9 @@ def _layers(stack: Element, place: _Place, name: str, numbers: Iterator[int]) ->
             place.groups,
         )
         if element.tag == "stack":
-            if opacity < 1 or blend != "normal" or element.get("isolation") != "auto":
-                group = Group(next(numbers), opacity, blend)
+            plain = opacity == 1 and blend == "normal" and not clipped
+            if not plain or element.get("isolation") != "auto":
+                group = Group(next(numbers), opacity, blend, clipped)
                 inner = replace(inner, groups=(*place.groups, group))
             yield from _layers(element, inner, name, numbers)
         elif element.tag == "layer":

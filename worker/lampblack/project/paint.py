@@ -2,43 +2,30 @@
 
 from __future__ import annotations
 
-import io
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 
 from ..cache import digest
-from ..drawing import read_picture
-from ..errors import DrawingError, ProjectError
-from .archive import Archive
 from .blend import Blend, blended
 from .document import Group, Key, Layer
-from .region import Region
-from .vector import PALETTE, VectorPictures
+from .layer_pictures import Floats, LayerPictures, Picture, Place
+from .vector import PALETTE
 
-Picture = NDArray[np.uint8]
+_ROWS = 256
+"""Rows that are blended at a time, to save memory."""
+_EVERYWHERE = ("dst-in", "dst-atop")
+"""Ways of compositing that change what is beyond the edges of the upper picture, too."""
 
 
 @dataclass
 class LayerPainter:
-    """Composites the layers of one project.
+    """Composites the layers of one project."""
 
-    Args:
-        region: the part of the canvas that is painted.
-        origin: Pencil2D's origin, (x, y) canvas pixels.
-        vectors: renders the vector layers.
-    """
-
-    archive: Archive
-    region: Region
-    origin: tuple[int, int]
-    vectors: VectorPictures
-    _digests: dict[str, str] = field(default_factory=dict)
+    pictures: LayerPictures
 
     def paint(self, layers: Sequence[Layer], frame: int) -> Picture:
         """(H, W, 4) uint8 sRGB, straight alpha: ``layers``, bottom first, at ``frame``.
@@ -46,121 +33,112 @@ class LayerPainter:
         Raises:
             ProjectError: a picture is missing or damaged.
         """
-        return np.array(self._group(layers, frame, 0))
+        region = self.pictures.region
+        if any(layer.touches_up or layer.groups for layer in layers):
+            nothing = np.zeros((region.height, region.width, 4), np.float32)
+            levels = np.rint(self.paint_on(nothing, layers, frame) * 255)
+            return np.asarray(levels, np.uint8)
+        canvas = Image.new("RGBA", (region.width, region.height))
+        for layer in layers:
+            key = layer.key_at(frame)
+            if key is not None and not key.blank:
+                picture, place = self.pictures.picture(layer, key)
+                if key.opacity < 1:
+                    picture = picture.copy()
+                    picture[..., 3] = np.rint(picture[..., 3] * key.opacity)
+                if picture.size:
+                    canvas.alpha_composite(Image.fromarray(picture), place)
+        return np.array(canvas)
 
-    def _group(self, layers: Sequence[Layer], frame: int, depth: int) -> Image.Image:
-        """``layers``, which share the groups down to ``depth``."""
-        canvas = Image.new("RGBA", (self.region.width, self.region.height))
+    def paint_on(self, below: Floats, layers: Sequence[Layer], frame: int) -> Floats:
+        """``layers``, bottom first, on a picture of the region: both and the result (H, W, 4)
+        float32 sRGB from 0 to 1, straight alpha.
+
+        Raises:
+            ProjectError: a picture is missing or damaged.
+        """
+        canvas = below.copy()
+        self._paint(canvas, layers, frame, 0)
+        return canvas
+
+    def _paint(self, canvas: Floats, layers: Sequence[Layer], frame: int, depth: int) -> None:
+        """Paint ``layers``, which share the groups down to ``depth``, on ``canvas``."""
 
         def inner(layer: Layer) -> Group | None:
             return layer.groups[depth] if len(layer.groups) > depth else None
 
         for group, members in groupby(layers, inner):
             if group is not None:
-                painted = self._group(list(members), frame, depth + 1)
-                _lay_on(canvas, np.asarray(painted), (0, 0), group.blend, group.opacity)
+                self._paint_group(canvas, group, list(members), frame, depth + 1)
                 continue
             for layer in members:
                 key = layer.key_at(frame)
                 if key is not None and not key.blank:
-                    self._lay(canvas, layer, key)
-        return canvas
+                    picture, place = self.pictures.picture(layer, key)
+                    if picture.size and layer.blend in _EVERYWHERE:
+                        picture, place = self._widened(picture, place), (0, 0)
+                    _lay_on(canvas, picture, place, layer.blend, key.opacity, layer.clipped)
+
+    def _paint_group(
+        self, canvas: Floats, group: Group, layers: Sequence[Layer], frame: int, depth: int
+    ) -> None:
+        painted = canvas.copy() if group.passes else np.zeros_like(canvas)
+        self._paint(painted, layers, frame, depth)
+        shown = self.pictures.shown(group.masks)
+        if group.passes:
+            share = group.opacity if shown is None else group.opacity * shown[..., None]
+            canvas[:] = _mixed(canvas, painted, share)
+            return
+        if shown is not None:
+            painted[..., 3] *= shown
+        _lay_on(canvas, painted, (0, 0), group.blend, group.opacity, group.clipped)
+
+    def _widened(self, picture: Picture, place: Place) -> Picture:
+        """``picture`` with nothing around it, as large as the region."""
+        whole = np.zeros((self.pictures.region.height, self.pictures.region.width, 4), np.uint8)
+        left, top = place
+        whole[top : top + picture.shape[0], left : left + picture.shape[1]] = picture
+        return whole
 
     def identity(self, layer: Layer, key: Key) -> bytes:
         """A digest of all that determines what ``paint`` makes of a key."""
-        found: list[object] = [self.region, self.origin, layer.kind, key.left, key.top, key.opacity]
-        found.append(key.inline or self._digest(key.file))
+        pictures = self.pictures
+        found: list[object] = [pictures.region, pictures.origin, layer.kind]
+        found += [key.left, key.top, key.opacity, key.inline or pictures.digest(key.file)]
         if layer.touches_up or layer.groups:
             found.append((layer.blend, layer.clipped, layer.groups))
+        for mask in (*key.masks, *(mask for group in layer.groups for mask in group.masks)):
+            found += [mask, pictures.digest(mask.file)]
         if layer.kind == "vector":
-            found.append(self._digest(PALETTE))
+            found.append(pictures.digest(PALETTE))
         return digest(*found).encode()
-
-    def _lay(self, canvas: Image.Image, layer: Layer, key: Key) -> None:
-        try:
-            if layer.kind == "vector":
-                picture, left, top = self.vectors.picture(layer, key, self.region), 0, 0
-            else:
-                name = f"{key.file} of frame {key.frame} on layer {layer.name!r}"
-                data = self.archive.read(key.file)
-                if self._digests.get(key.file, digest(data)) != digest(data):
-                    raise ProjectError(
-                        f"{name} was changed while the shot was rendered.", "Render the shot again."
-                    )
-                picture = read_picture(io.BytesIO(data), name)
-                picture, left, top = self._placed(picture, key)
-        except ProjectError:
-            raise
-        except DrawingError as error:
-            raise ProjectError(error.what, error.remedy, error.details) from error
-        # A picture may be anywhere: only its part on the canvas is painted.
-        picture = picture[max(0, -top) :, max(0, -left) :]
-        picture = picture[: max(0, canvas.height - top), : max(0, canvas.width - left)]
-        if not picture.size:
-            return
-        place = max(0, left), max(0, top)
-        _lay_on(canvas, picture, place, layer.blend, key.opacity, clipped=layer.clipped)
-
-    def _placed(self, picture: Picture, key: Key) -> tuple[Picture, int, int]:
-        """A bitmap in the region's pixels, and its place there."""
-        region = self.region
-        left, top = key.left + self.origin[0], key.top + self.origin[1]
-        if region.scale == 1:
-            return picture, left - int(region.left), top - int(region.top)
-        return _reduced(
-            picture,
-            left * region.scale - region.left,
-            top * region.scale - region.top,
-            region.scale,
-        )
-
-    def _digest(self, name: str) -> str:
-        if name not in self._digests:
-            try:
-                self._digests[name] = digest(self.archive.read(name))
-            except ProjectError as error:  # reported when the frame is painted
-                self._digests[name] = digest(name, str(error))
-        return self._digests[name]
 
 
 def _lay_on(
-    canvas: Image.Image,
-    picture: Picture,
-    place: tuple[int, int],
+    canvas: Floats,
+    picture: Picture | Floats,
+    place: Place,
     blend: Blend,
     opacity: float,
-    *,
-    clipped: bool = False,
+    clipped: bool,
 ) -> None:
-    """Paint ``picture`` on ``canvas``, with its corner at ``place``."""
-    if blend == "normal" and not clipped:
-        if opacity < 1:
-            picture = picture.copy()
-            picture[..., 3] = np.rint(picture[..., 3] * opacity)
-        canvas.alpha_composite(Image.fromarray(picture), place)
-        return
-    whole = np.zeros((canvas.height, canvas.width, 4), np.uint8)
+    """Blend ``picture`` with ``canvas``, with its corner at ``place``."""
     left, top = place
-    whole[top : top + picture.shape[0], left : left + picture.shape[1]] = picture
-    below = np.asarray(canvas)
-    canvas.paste(Image.fromarray(blended(below, whole, blend, opacity, clipped=clipped)))
+    most = 255 if picture.dtype == np.uint8 else 1
+    for row in range(0, picture.shape[0], _ROWS):
+        front = np.divide(picture[row : row + _ROWS], most, dtype=np.float32)
+        rows = slice(top + row, top + row + front.shape[0])
+        part = canvas[rows, left : left + picture.shape[1]]
+        part[:] = blended(part, front, blend, opacity, clipped=clipped)
 
 
-def _reduced(picture: Picture, left: float, top: float, scale: float) -> tuple[Picture, int, int]:
-    """``picture`` made smaller by ``scale`` with its corner at (left, top), on whole pixels. Each
-    is the mean of what it covers. Returns it with its new corner."""
-    height, width = picture.shape[:2]
-    place = []
-    for start, side in ((left, width), (top, height)):
-        first = math.floor(start)
-        count = max(1, math.ceil(start + side * scale) - first)
-        before = math.ceil((start - first) / scale)
-        past = math.ceil((first + count - start) / scale) - side
-        place.append((first, count, before, max(0, past), before - (start - first) / scale))
-    (x, columns, before_x, past_x, skip_x), (y, rows, before_y, past_y, skip_y) = place
-    padded = np.pad(picture, ((before_y, past_y), (before_x, past_x), (0, 0)))
-    box = (skip_x, skip_y, skip_x + columns / scale, skip_y + rows / scale)
-    box = (*box[:2], min(box[2], padded.shape[1]), min(box[3], padded.shape[0]))
-    image = Image.fromarray(padded).convert("RGBa")
-    smaller = image.resize((columns, rows), Image.Resampling.BOX, box)
-    return np.asarray(smaller.convert("RGBA")), x, y
+def _mixed(before: Floats, after: Floats, share: float | Floats) -> Floats:
+    """Between two pictures, (H, W, 4) float32 from 0 to 1 with straight alpha: ``before`` where
+    ``share`` is 0, ``after`` where it is 1."""
+    first, last = (
+        np.concatenate([one[..., :3] * one[..., 3:], one[..., 3:]], axis=2)
+        for one in (before, after)
+    )
+    mixed = first + share * (last - first)
+    mixed[..., :3] /= np.maximum(mixed[..., 3:], 1e-6)
+    return np.asarray(np.clip(mixed, 0, 1), np.float32)

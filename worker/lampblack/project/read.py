@@ -17,6 +17,7 @@ from .document import Key, Kind, Layer, Project
 from .easing import CURVES, LINEAR
 from .ora import parse_stack
 
+PSD = (".psd", ".psb")
 BITMAP, VECTOR, CAMERA = "1", "2", "5"
 KINDS: dict[str, Kind] = {BITMAP: "bitmap", VECTOR: "vector"}
 MAX_LAYERS = 1000
@@ -27,13 +28,27 @@ DEFAULT_CAMERA = Camera("Camera Layer", 800, 600, (CameraKey(1),))
 """What Pencil2D adds to a project of its early versions, which has none."""
 
 
+SUFFIXES = (".pclx", ".pcl", ORA, *PSD)
+"""Of all files that are read as projects."""
+
+
+def is_project(path: str | Path) -> bool:
+    """Whether ``path`` has the suffix of a Pencil2D project, or of one drawing with layers."""
+    return Path(path).suffix.lower() in SUFFIXES
+
+
 def read_project(path: str | Path) -> tuple[Project, Archive]:
-    """Read a ``.pclx``, ``.pcl`` or ``.ora``. Its pictures are read later, when they are needed.
+    """Read a project or a drawing with layers. Its pictures are read later, when they are needed.
 
     Raises:
         ProjectError: the file is no project, is damaged, or has a value that makes no sense.
     """
-    archive = open_archive(Path(path))
+    path = Path(path)
+    if path.suffix.lower() in PSD:
+        from .psd import read_psd  # psd-tools takes a moment to load
+
+        return read_psd(path)
+    archive = open_archive(path)
     xml, name = archive.xml(), archive.path.name
     if archive.path.suffix.lower() == ORA:
         return parse_stack(xml, name), archive

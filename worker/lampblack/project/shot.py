@@ -26,7 +26,8 @@ from .archive import Archive
 from .camera_layer import Camera
 from .document import Layer, Project
 from .exposure_sheet import shown
-from .paint import LayerPainter, Picture
+from .layer_pictures import LayerPictures, Picture
+from .paint import LayerPainter
 from .region import Region
 from .stack import Roles, stack_layers
 from .vector import VectorPictures
@@ -62,7 +63,8 @@ class ProjectShot:
         self._views = [self._camera.at(number) for number in range(1, project.length + 1)]
         self.region = _region(self._camera, self._views)
         origin = self._camera.width // 2, self._camera.height // 2
-        self._painter = LayerPainter(archive, self.region, origin, VectorPictures(archive, origin))
+        vectors = VectorPictures(archive, origin)
+        self._painter = LayerPainter(LayerPictures(archive, self.region, origin, vectors))
         self.frames: Sequence[ShotFrame] = self._frames(project.length, Path(archive.path).stem)
 
     def _frames(self, length: int, stem: str) -> list[ShotFrame]:
@@ -127,20 +129,22 @@ class ProjectShot:
         return self._through(_number(frame))
 
     def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
-        """Layers are composited as in Pencil2D. Without other layers, and under a camera that only
-        translates, this is the lit cel itself."""
+        """Layers are composited as in their own program. Without other layers, and under a camera
+        that only translates, this is the lit cel itself."""
         number = _number(frame)
         size = self.canvas.width, self.canvas.height
         camera = self.camera(frame)
         below = self._painter.paint(self._stack.below, number) if self._stack.below else None
-        above = self._painter.paint(self._stack.above, number) if self._stack.above else None
-        if below is None and above is None and camera[:2] + camera[3:5] == (1.0, 0.0, 0.0, 1.0):
+        above = self._stack.above
+        if below is None and not above and camera[:2] + camera[3:5] == (1.0, 0.0, 0.0, 1.0):
             return look_through(lit, camera, size)
         layered = _premultiplied(lit)
         if below is not None:
             layered = _over(layered, _premultiplied(below))
-        if above is not None:
-            layered = _over(_premultiplied(above), layered)
+        if any(layer.touches_up for layer in above):
+            layered = _premultiplied(self._painter.paint_on(_straight(layered), above, number))
+        elif above:
+            layered = _over(_premultiplied(self._painter.paint(above, number)), layered)
         seen = _straight(look_through(layered, camera, size))
         return (np.rint(seen * 255) if lit.dtype == np.uint8 else seen).astype(lit.dtype)
 

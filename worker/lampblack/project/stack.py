@@ -43,7 +43,8 @@ class Stack:
 def stack_layers(project: Project, roles: Roles) -> Stack:
     """Sort the layers by role. If any layer has the role ``character`` or ``line``, layers without
     a role are background. Otherwise every visible layer is lit, except ``background``. The paint of
-    a layer named Light is light, unless it has the role of a character or a line.
+    a layer named Light is light, unless it has the role of a character or a line. A layer that is
+    clipped, and has no role of its own, has that of the layer that it is clipped to.
 
     If the project has a visible layer of rendered frames, layers with a role are lit even when
     they are hidden: the artist may have hidden them behind the result.
@@ -58,11 +59,11 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
         layer for layer in project.layers if layer not in painted and not _is_result(layer, roles)
     ]
     finished = any(layer.visible and _is_result(layer, roles) for layer in project.layers)
+    each = _roles_of_all(drawn, roles, "background" if named else "character")
     lit = [
         layer
-        for layer in drawn
-        if roles.get(layer.name, "background" if named else "character") != "background"
-        and (layer.visible or (finished and layer.name in roles))
+        for layer, role in zip(drawn, each, strict=True)
+        if role != "background" and (layer.visible or (finished and layer.name in roles))
     ]
     if not lit:
         raise ProjectError(
@@ -75,7 +76,11 @@ def stack_layers(project: Project, roles: Roles) -> Stack:
     return Stack(
         below=tuple(layer for layer in shown[:top] if layer not in lit),
         lit=tuple(lit),
-        line=tuple(layer for layer in lit if roles.get(layer.name) == "line"),
+        line=tuple(
+            layer
+            for layer, role in zip(drawn, each, strict=True)
+            if role == "line" and layer in lit
+        ),
         above=tuple(shown[top + 1 :]),
         light=tuple(layer for layer in painted if layer.visible),
     )
@@ -87,6 +92,19 @@ def roles_of(scene: Scene) -> dict[str, LayerRole]:
     if not isinstance(kept, dict):
         return {}
     return {name: role for name, role in kept.items() if role in get_args(LayerRole)}
+
+
+def _roles_of_all(layers: list[Layer], roles: Roles, usual: LayerRole) -> list[LayerRole]:
+    """The role of each of ``layers``, bottom first."""
+    found: list[LayerRole] = []
+    base = usual
+    for layer in layers:
+        clipped = layer.clipped or any(group.clipped for group in layer.groups)
+        role = roles.get(layer.name, base if clipped else usual)
+        if not clipped:
+            base = role
+        found.append(role)
+    return found
 
 
 def is_painted_light(name: str, roles: Roles) -> bool:

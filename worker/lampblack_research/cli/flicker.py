@@ -44,7 +44,7 @@ def flicker(
     inputs: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="INPUT", help="PNG, folder, walk.%04d.png, or one .pclx or .ora project."
+            metavar="INPUT", help="PNG, folder, walk.%04d.png, or one .pclx, .ora or .psd."
         ),
     ] = None,
     models: Annotated[
