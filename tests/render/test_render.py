@@ -6,8 +6,10 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -269,3 +271,24 @@ time.sleep(60)
         pid = int(parent.stdout.readline())
         parent.kill()
     assert gone(pid, 20)
+
+
+def test_a_child_that_is_stopped_is_replaced_and_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    request = RenderRequest(
+        ball(48, 48, (24, 24), 20), Canvas(48, 48), (AreaLight(8, 8, 40),), quality=quality(4)
+    )
+    with RenderChild() as own:
+        before = own.render(request).ambient.diffuse
+        stopped = own.pid
+        assert stopped is not None
+        os.kill(stopped, signal.SIGSTOP)
+        with pytest.raises(RenderError) as told:
+            own.render(request)
+        assert "it was stopped" in told.value.details
+        assert gone(stopped, 5)
+        assert np.array_equal(own.render(request).ambient.diffuse, before)
+        assert len(list(tmp_path.iterdir())) == 1
+    assert not list(tmp_path.iterdir())

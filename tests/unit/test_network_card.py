@@ -29,6 +29,13 @@ def test_weights_round_trip_and_foreign_files_are_refused(tmp_path: Path) -> Non
         with pytest.raises(LampblackError):
             load_network(path)
     path.write_bytes(good)
+    for value in (float("nan"), float("inf")):
+        spoilt = build_network(card.architecture)
+        next(spoilt.parameters()).data[0] = value
+        save_network(path, spoilt, card)
+        with pytest.raises(LampblackError, match="not all finite"):
+            load_network(path)
+    path.write_bytes(good)
     text = json.loads(path.with_suffix(".json").read_text())
     for change in ({"architecture": "../../etc"}, {"figure_px": [1, 10**9]}):
         path.with_suffix(".json").write_text(json.dumps(text | change))

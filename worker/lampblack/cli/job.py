@@ -65,6 +65,7 @@ def job(
     with atomic_file(output) as file:
         file.write(text)
     say(f"{len(frames)} frames in {len(tasks)} tasks: {output}")
-    given = [f"-p {name}={path}" for name, path in paths_outside(settings, folder).items()]
-    words = shlex.join(["openjd", "run", str(output), "--step", "Light"])
-    say(f"Try it here: {' '.join([words, *given])}")
+    words = ["openjd", "run", str(output), "--step", "Light"]
+    for name, path in paths_outside(settings, folder).items():
+        words += ["-p", f"{name}={path}"]
+    say(f"Try it here: {shlex.join(words)}")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import LampblackError
+from ..errors import LampblackError, RenderError
 from ..finals.settings import RenderSettings
 from .console import EXIT_FAILED, EXIT_UNLIT, print_error, progress_bar, say
 from .options import OPTIONS, with_settings
@@ -78,6 +78,9 @@ def render(
         task = bar.add_task("Lighting", total=len(job.frames))
 
         class Report(RenderListener):
+            def on_renderer_lost(self, frame: ShotFrame, error: RenderError) -> None:
+                say(f"{frame.name}: {error.what} It is started again. {error.details[:200]}")
+
             def on_frame(
                 self, frame: ShotFrame, error: LampblackError | None, *, kept: bool
             ) -> None:

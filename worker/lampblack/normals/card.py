@@ -10,13 +10,14 @@ import msgspec
 import torch
 from msgspec import Meta
 from safetensors import SafetensorError
-from safetensors.torch import load_file, save
+from safetensors.torch import load, save
 from torch import nn
 
 from ..atomic import atomic_file
 from ..errors import LampblackError
+from ..files import read_bounded
 
-MAX_WEIGHT_BYTES = 256 << 20
+MAX_WEIGHT_BYTES, MAX_CARD_BYTES = 256 << 20, 1 << 20
 
 Side = Annotated[int, Meta(ge=64, le=4096)]
 
@@ -67,17 +68,18 @@ def load_network(path: Path | None = None) -> tuple[nn.Module, NetworkCard]:
 
     path = path or shipped_weights()
     try:
-        if path.stat().st_size > MAX_WEIGHT_BYTES:
-            raise LampblackError(f"{path} is too large to be weights of a normal network.")
-        card = msgspec.json.decode(path.with_suffix(".json").read_bytes(), type=NetworkCard)
+        described = read_bounded(path.with_suffix(".json"), MAX_CARD_BYTES)
+        card = msgspec.json.decode(described, type=NetworkCard)
         if card.architecture not in ARCHITECTURES:
             raise LampblackError(
                 f"{path} is for a network named {card.architecture!r}.",
                 f"This Lampblack knows: {', '.join(ARCHITECTURES)}.",
             )
         network = build_network(card.architecture)
-        tensors = {name: tensor.float() for name, tensor in load_file(path).items()}
-        network.load_state_dict(tensors)
+        stored = load(read_bounded(path, MAX_WEIGHT_BYTES))
+        if not all(bool(tensor.isfinite().all()) for tensor in stored.values()):
+            raise LampblackError(f"The weights {path} are not all finite.", "Train them again.")
+        network.load_state_dict({name: tensor.float() for name, tensor in stored.items()})
     except (OSError, SafetensorError, msgspec.DecodeError, RuntimeError) as error:
         raise LampblackError(
             f"The weights {path} cannot be used.", "Reinstall Lampblack.", str(error)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-import tempfile
 import weakref
 import zipfile
 from collections.abc import Mapping, Sequence
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..drawing import load_picture
 from ..errors import ProjectError
+from ..own_folder import own_folder
 from .archive import Archive
 from .document import Key, Layer
 from .region import Region
@@ -63,7 +63,7 @@ class VectorPictures:
                 "Install Pencil2D (on Debian: apt-get install pencil2d), or leave the layer out: "
                 f'--background "{layer.name}", or hide it.',
             )
-        folder = Path(tempfile.mkdtemp(prefix="lampblack-vector-"))
+        folder = own_folder()
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         project, keys = folder / "layer.pclx", [key for key in layer.keys if not key.blank]
         files = {name: f"{at}.vec" for at, name in enumerate({k.file for k in keys if k.file}, 1)}

@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -21,9 +22,11 @@ from numpy.typing import NDArray
 
 from ..choices import GlowName
 from ..errors import RenderError
+from ..own_folder import own_folder
 from ..scene import Ambient, AreaLight
 from .passes import DARK, LightPasses, Passes
 from .request import RenderRequest, Surface
+from .watched_pipe import WatchedPipe, unblocked
 from .wire import (
     Accumulate,
     Array,
@@ -38,7 +41,7 @@ from .wire import (
 )
 
 # The child gets only these: library and Python paths of a drawing program would break it.
-KEPT_VARIABLES = ("PATH", "HOME", "LANG", "TMPDIR", "TEMP", "TMP", "SYSTEMROOT")
+KEPT_VARIABLES = ("PATH", "HOME", "LANG", "SYSTEMROOT")
 
 
 class RenderChild:
@@ -61,6 +64,7 @@ class RenderChild:
         self._surface: Surface | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._log: IO[bytes] | None = None
+        self._folder: Path | None = None
         self._loaded = b""
 
     def __enter__(self) -> Self:
@@ -174,17 +178,23 @@ class RenderChild:
             return
         self._end()
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the child
+        # Blender leaves its temporary folder behind when it is ended.
+        self._folder = own_folder()
         self._process = subprocess.Popen(
             [sys.executable, "-I", "-m", "lampblack.render.child"],
             bufsize=0,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._log,
-            env={name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
+            env={
+                **{name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
+                **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._folder)),
+            },
             # The user's current folder may be a downloaded project: nothing in it is to be loaded.
             cwd=os.sep,
             start_new_session=True,
         )
+        unblocked(cast(FileIO, self._process.stdin))
         if self._niceness and hasattr(os, "setpriority"):
             os.setpriority(os.PRIO_PROCESS, self._process.pid, self._niceness)
 
@@ -200,6 +210,9 @@ class RenderChild:
         if self._log:
             self._log.close()
             self._log = None
+        if self._folder:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            self._folder = None
 
     def _load(self, surface: Surface) -> None:
         if surface is self._surface:
@@ -243,9 +256,10 @@ class RenderChild:
             raise WireError(f"an unexpected {type(message).__name__}")
         return tuple(array.astype(np.float32, copy=False) for array in arrays)
 
-    def _pipe(self, name: Literal["stdin", "stdout"]) -> FileIO:
+    def _pipe(self, name: Literal["stdin", "stdout"]) -> WatchedPipe:
         """The child's end ``name``, unbuffered."""
-        return cast(FileIO, getattr(self._process, name))
+        assert self._process is not None
+        return WatchedPipe(cast(FileIO, getattr(self._process, name)), self._process.pid)
 
     def _lost(self, error: Exception) -> RenderError:
         """Clean up after a dead child. Returns the error with its exit status and log."""

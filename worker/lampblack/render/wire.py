@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Iterable
-from io import FileIO
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Protocol
 
 import msgspec
 import numpy as np
@@ -106,7 +105,19 @@ class ArraySpec(msgspec.Struct, array_like=True):
     shape: Annotated[tuple[Annotated[int, Meta(ge=0, le=1 << 31)], ...], Meta(max_length=3)]
 
 
-def send(stream: FileIO, message: Message, arrays: Iterable[Array] = ()) -> None:
+class Reader(Protocol):
+    """The reading end of a pipe, as ``io.FileIO``."""
+
+    def readinto(self, buffer: memoryview, /) -> int | None: ...
+
+
+class Writer(Protocol):
+    """The writing end of a pipe, as ``io.FileIO``; it may take a part, or nothing yet."""
+
+    def write(self, data: memoryview, /) -> int | None: ...
+
+
+def send(stream: Writer, message: Message, arrays: Iterable[Array] = ()) -> None:
     """Write one message.
 
     Raises:
@@ -121,7 +132,7 @@ def send(stream: FileIO, message: Message, arrays: Iterable[Array] = ()) -> None
             _write(stream, array.data.cast("B"))
 
 
-def receive(stream: FileIO) -> tuple[Message, list[Array]]:
+def receive(stream: Reader) -> tuple[Message, list[Array]]:
     """Read one message and its arrays.
 
     Raises:
@@ -147,12 +158,12 @@ def receive(stream: FileIO) -> tuple[Message, list[Array]]:
     return message, arrays
 
 
-def _write(stream: FileIO, data: memoryview) -> None:
+def _write(stream: Writer, data: memoryview) -> None:
     while data:
         data = data[stream.write(data) or 0 :]
 
 
-def _read(stream: FileIO, buffer: bytearray | memoryview) -> bytearray | memoryview:
+def _read(stream: Reader, buffer: bytearray | memoryview) -> bytearray | memoryview:
     rest = memoryview(buffer)
     while rest:
         count = stream.readinto(rest)

@@ -14,6 +14,7 @@ import msgspec
 
 from ..atomic import atomic_file
 from ..errors import OutputError
+from ..own_folder import NAME_BYTES, own_folder
 from ..protocol import MAJOR, MINOR
 from ..protocol.connection import Connection
 
@@ -74,11 +75,11 @@ def _fresh_folder() -> Path:
     places = [os.environ.get("XDG_RUNTIME_DIR"), tempfile.gettempdir(), "/tmp"]
     trouble = "its path would be too long"
     for place in places:
-        # A name's random part and the socket's own take 30 bytes.
-        if not place or len(os.fsencode(place)) + 31 + len("lampblack-") > MAX_PATH_BYTES:
+        # The socket's own name takes 16 bytes, and there are two strokes.
+        if not place or len(os.fsencode(place)) + NAME_BYTES + 18 > MAX_PATH_BYTES:
             continue
         try:
-            return Path(tempfile.mkdtemp(prefix="lampblack-", dir=place)).resolve()
+            return own_folder(Path(place))
         except OSError as error:
             trouble = str(error)
     raise OutputError(
