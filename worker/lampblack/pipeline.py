@@ -153,4 +153,5 @@ class Pipeline:
             drawing, neighbours, hints=(*scene.depth.drawn, *scene.depth.colours)
         )
         passes = self.light(prepared, scene)
-        return composite(drawing, passes, scene, edges=prepared.edges_for(scene))
+        edges, form = prepared.edges_for(scene), prepared.form_for(scene)
+        return composite(drawing, passes, scene, edges=edges, form=form)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .choices import GlowName
 from .composite.byte_layers import ByteLayers, byte_layers_of
 from .composite.edges import edge_distance
+from .composite.form import Form
 from .composite.resample import Box
 from .drawing import Drawing, Palette
 from .materials import MaterialTable
@@ -81,6 +82,16 @@ class PreparedDrawing:
         )
         height = self.height[np.ix_(*places)] / np.float32(self.step)
         return edge_distance(labels >= 0, ink, height)
+
+    @cached_property
+    def form(self) -> Form:
+        """A small copy of the surface, of the topmost body, for the composite."""
+        return Form.of(self.height, self.mask, self.scale)
+
+    def form_for(self, scene: Scene) -> Form | None:
+        """``form`` if ``scene`` has tones that need it."""
+        needed = scene.floor is not None or scene.look.cast_strength > 0
+        return self.form if needed and scene.look.tones else None
 
     def edges_for(self, scene: Scene) -> NDArray[np.uint8] | None:
         """``edges`` if ``scene`` has a rim."""

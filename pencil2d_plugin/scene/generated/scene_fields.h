@@ -137,6 +137,8 @@ template <class Fields> void describe(Fields& fields, Look& value)
     fields.real("softness", value.softness, 0, 1, Need::Optional);
     text(fields, "shade_colour", value.shadeColour, 0, 7, patterns().colour, Need::Optional);
     fields.real("shade_strength", value.shadeStrength, 0, 1, Need::Optional);
+    text(fields, "cast_colour", value.castColour, 0, 7, patterns().colour, Need::Optional);
+    fields.real("cast_strength", value.castStrength, 0, 1, Need::Optional);
     fields.real("highlight", value.highlight, 0, 1, Need::Optional);
     fields.real("contact", value.contact, 0, 1, Need::Optional);
     fields.real("ink_light", value.inkLight, 0, 1, Need::Optional);

@@ -60,9 +60,10 @@ bool operator==(const Floor& a, const Floor& b)
 
 bool operator==(const Look& a, const Look& b)
 {
-    return std::tie(a.tones, a.softness, a.shadeColour, a.shadeStrength, a.highlight, a.contact, a.inkLight,
-                    a.glow, a.extra) == std::tie(b.tones, b.softness, b.shadeColour, b.shadeStrength,
-                                                 b.highlight, b.contact, b.inkLight, b.glow, b.extra);
+    return std::tie(a.tones, a.softness, a.shadeColour, a.shadeStrength, a.castColour, a.castStrength,
+                    a.highlight, a.contact, a.inkLight, a.glow,
+                    a.extra) == std::tie(b.tones, b.softness, b.shadeColour, b.shadeStrength, b.castColour,
+                                         b.castStrength, b.highlight, b.contact, b.inkLight, b.glow, b.extra);
 }
 
 bool operator==(const Rim& a, const Rim& b)

@@ -202,8 +202,9 @@ struct Floor
 /// `tones` are thresholds between two tones each, as shares of the full light, the way the eye sees them: 0
 /// is no light, 1 a surface that faces the strongest light. Without any the light is smooth. `softness` is
 /// the width of the blend at a threshold; 0 is hard. `shade_strength` is how far the shade has the drawn
-/// colour times `shade_colour` in place of its own light. `highlight` is the threshold of the highlights of
-/// glossy paint, where there are tones.
+/// colour times `shade_colour` in place of its own light. `cast_strength` is how far shadows that something
+/// casts on the character have the drawn colour times `cast_colour` in place of the light of the shade, where
+/// there are tones. `highlight` is the threshold of the highlights of glossy paint, where there are tones.
 ///
 /// `contact` darkens where surfaces touch. With `ink_light` the line takes light: it is darker in shade, and
 /// tinted by the lit fill. `glow` is the bloom around emissive colours.
@@ -213,6 +214,8 @@ struct Look
     double softness = 0.05;                ///< 0 to 1
     QColor shadeColour = QColor(0x4a4468); ///< sRGB, lower case #rrggbb
     double shadeStrength = 0;              ///< 0 to 1
+    QColor castColour = QColor(0x332e52);  ///< sRGB, lower case #rrggbb
+    double castStrength = 0;               ///< 0 to 1
     double highlight = 0.5;                ///< 0 to 1
     double contact = 0;                    ///< 0 to 1
     double inkLight = 0;                   ///< 0 to 1

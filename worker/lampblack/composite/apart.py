@@ -14,6 +14,7 @@ from ..render.passes import Passes
 from ..scene import Material, Scene
 from .blend import SPLITS, Blend, Picture, without_colour
 from .float_kernel import composite_float, composite_unrounded
+from .form import Form
 from .illumination import Illumination
 
 Stage = NDArray[Any]
@@ -93,19 +94,27 @@ class Stages:
 
 
 def byte_stages(
-    drawing: Drawing, passes: Passes, scene: Scene, edges: Edges | None = None
+    drawing: Drawing,
+    passes: Passes,
+    scene: Scene,
+    edges: Edges | None = None,
+    form: Form | None = None,
 ) -> Stages:
     """The stages of a lit drawing in bytes. The last is what ``composite`` returns; ``edges`` are
-    as there."""
-    return _stages(drawing, passes, scene, edges, composite_float, drawing.pixels)
+    as there, and ``form`` as in ``Illumination``."""
+    return _stages(drawing, passes, scene, edges, form, composite_float, drawing.pixels)
 
 
 def float_stages(
-    drawing: Drawing, passes: Passes, scene: Scene, edges: Edges | None = None
+    drawing: Drawing,
+    passes: Passes,
+    scene: Scene,
+    edges: Edges | None = None,
+    form: Form | None = None,
 ) -> Stages:
     """The same before rounding, in 0 to 1."""
     drawn = drawing.pixels.astype(np.float32) / 255
-    return _stages(drawing, passes, scene, edges, composite_unrounded, drawn)
+    return _stages(drawing, passes, scene, edges, form, composite_unrounded, drawn)
 
 
 def _stages(
@@ -113,6 +122,7 @@ def _stages(
     passes: Passes,
     scene: Scene,
     edges: Edges | None,
+    form: Form | None,
     composite: Callable[[Drawing, Illumination, Scene, Edges | None], Stage],
     drawn: Stage,
 ) -> Stages:
@@ -122,7 +132,7 @@ def _stages(
     lit: list[Stage] = []
     for before, now in zip([None, *scenes], scenes, strict=False):
         same = before is not None and now is before
-        light = Illumination.of(passes, now)
+        light = Illumination.of(passes, now, form)
         lit.append(lit[-1] if same else composite(drawing, light, now, edges))
     floor = drawn
     if scene.floor is not None:

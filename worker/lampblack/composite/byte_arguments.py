@@ -98,6 +98,10 @@ class ToneSteps(NamedTuple):
     shine: Any
     lit: Any
     shade: Any
+    cast: Any
+    cast_shade: Any
+    cast_low: Any
+    cast_high: Any
     lows: Any
     highs: Any
     shine_lows: Any
@@ -110,9 +114,10 @@ class ToneSteps(NamedTuple):
         """``tones``; of none, those that no paint uses."""
         if tones is None:
             dark, black, none = UNIT[..., 0], UNIT[0, 0], np.float32(0)
-            return ToneSteps(dark, dark, UNIT, black, _NONE, _NONE, _NONE, _NONE, black, none)
+            return ToneSteps(dark, dark, UNIT, black, dark, black, *(_NONE,) * 6, black, none)
         return ToneSteps(
-            tones.amount, tones.shine, tones.lit, tones.shade, tones.lows, tones.highs,
+            tones.amount, tones.shine, tones.lit, tones.shade,
+            tones.cast, tones.cast_shade, *tones.cast_steps, tones.lows, tones.highs,
             tones.highlight[:1], tones.highlight[1:], tones.tint, tones.strength,
         )  # fmt: skip
 

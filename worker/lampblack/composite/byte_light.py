@@ -41,6 +41,8 @@ def _diffuse(
         figure.diffuse, tones.lit, tones.amount, tones.shade, tones.tint
     )  # fmt: skip
     lows, highs, strength, one = tones.lows, tones.highs, tones.strength, np.float32(1)
+    cast, cast_shade, has_cast = tones.cast, tones.cast_shade, tones.cast.size > 1
+    cast_low, cast_high = tones.cast_low, tones.cast_high
     v = top + row * down
     for column in columns:
         kind = kinds[worn[column]]
@@ -49,19 +51,23 @@ def _diffuse(
         u = left + column * across
         if kind & CEL:
             tone = step_share(amount, u, v, across, down, lows, highs)
+            covered = np.float32(0)
+            if has_cast and tone < 1:
+                covered = step_share(cast, u, v, across, down, cast_low, cast_high)
             if tone > 0:
                 colour_at(toned, u, v, light, column)
                 for c in range(3):
-                    light[column, c] = shade[c] + tone * (light[column, c] - shade[c])
+                    dark = shade[c] + covered * (cast_shade[c] - shade[c])
+                    light[column, c] = dark + tone * (light[column, c] - dark)
             else:
                 for c in range(3):
-                    light[column, c] = shade[c]
+                    light[column, c] = shade[c] + covered * (cast_shade[c] - shade[c])
         else:
             colour_at(smooth, u, v, light, column)
             if strength > 0:
-                dark = one - min(max(level(amount, u, v), np.float32(0)), one)
+                away = one - min(max(level(amount, u, v), np.float32(0)), one)
                 for c in range(3):
-                    light[column, c] += strength * dark * (tint[c] - light[column, c])
+                    light[column, c] += strength * away * (tint[c] - light[column, c])
 
 
 @compiled

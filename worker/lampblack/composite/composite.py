@@ -11,6 +11,7 @@ from ..scene import Scene
 from .byte_composite import composite_bytes
 from .byte_layers import ByteLayers
 from .float_kernel import composite_float
+from .form import Form
 from .illumination import Illumination
 from .resample import Box
 
@@ -21,6 +22,7 @@ def composite(
     scene: Scene,
     crop: Box | None = None,
     edges: NDArray[np.uint8] | None = None,
+    form: Form | None = None,
 ) -> NDArray[np.uint8]:
     """The lit drawing, (H, W, 4) uint8 sRGB, for finals and for previews.
 
@@ -38,8 +40,9 @@ def composite(
         crop: the part of the drawing in the byte layers, in the drawing's pixels; None is all.
         edges: what the rim of the scene follows in a ``Drawing``, see ``edge_distance``; None is
             its silhouette. Byte layers have their own.
+        form: the surface that ``light`` falls on, where it is passes; see ``Illumination``.
     """
-    illumination = light if isinstance(light, Illumination) else Illumination.of(light, scene)
+    illumination = light if isinstance(light, Illumination) else Illumination.of(light, scene, form)
     if isinstance(layers, ByteLayers):
         whole = (0.0, 0.0, float(layers.size[0]), float(layers.size[1]))
         return composite_bytes(layers, illumination, scene, crop or whole)

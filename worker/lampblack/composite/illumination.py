@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple, get_args
 
@@ -14,6 +14,7 @@ from ..choices import GlowName
 from ..colour import hex_linear
 from ..render.passes import LightPasses, Passes
 from ..scene import Scene, shining
+from .form import Form
 from .linking import Link
 from .resample import Box
 from .sums import add_up
@@ -36,11 +37,12 @@ light of the character, or the floor's light with the character and without it."
 
 class Source(NamedTuple):
     """A source of light: its weight, (3,) scene-linear, its passes, and what it lights; None is
-    everything."""
+    everything. A glow is light that comes from surfaces."""
 
     weight: Floats
     light: LightPasses
     link: Link | None = None
+    is_glow: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,9 +51,11 @@ class Illumination:
 
     Attributes:
         character: the lights on the character. ambient: the ambient light on it, if it has power.
+        glows: light on it that comes from surfaces.
         linked: lights that light only a part of it, by that part.
         floor: the sources on the floor, if there is one.
         openness: (h, w, 3), the ambient light of strength 1 on the character, if it was traced.
+        form: the surface of the character, if it is known.
         character_area, floor_area: the part of the drawing that they cover, in its pixels; None
             is the part that the layers show.
     """
@@ -63,17 +67,20 @@ class Illumination:
     character_area: Box | None = None
     floor_area: Box | None = None
     linked: Mapping[Link, Sequence[Weighted]] = field(default_factory=dict)
+    glows: Sequence[Weighted] = ()
+    form: Form | None = None
 
     @staticmethod
-    def of(passes: Passes, scene: Scene) -> Illumination:
+    def of(passes: Passes, scene: Scene, form: Form | None = None) -> Illumination:
         """The light of ``scene``, from ``passes`` of white lights that cover the whole drawing."""
-        return Illumination.sum_of(weigh(passes, scene), passes.ambient)
+        return replace(Illumination.sum_of(weigh(passes, scene), passes.ambient), form=form)
 
     @staticmethod
     def sum_of(sources: Sequence[Source], ambient: LightPasses | None = None) -> Illumination:
         """Light passes that cover the whole drawing, with their weights; ``ambient`` is the one
         of them that is not a light's."""
         lights: list[Weighted] = []
+        glows: list[Weighted] = []
         linked: dict[Link, list[Weighted]] = {}
         around = None
         for source in sources:
@@ -81,7 +88,7 @@ class Illumination:
             if source.light is ambient:
                 around = found
             elif source.link is None:
-                lights.append(found)
+                (glows if source.is_glow else lights).append(found)
             else:
                 linked.setdefault(source.link, []).append(found)
         floor = [
@@ -92,7 +99,7 @@ class Illumination:
             and source.link is None
         ]
         openness = None if ambient is None else ambient.diffuse
-        return Illumination(lights, around, floor, openness, linked=linked)
+        return Illumination(lights, around, floor, openness, linked=linked, glows=glows)
 
     @cached_property
     def diffuse(self) -> Floats:
@@ -108,7 +115,7 @@ class Illumination:
     def sheen(self) -> Floats:
         """As ``glossy``, for paint that is diffuse as well. Such paint reflects little of what is
         all around it; all of it would lie on the paint as a milky veil."""
-        lights = [(weight, light) for weight, _, light in self.character]
+        lights = [(weight, light) for weight, _, light in self.direct]
         if self.ambient is not None:
             weight, _, light = self.ambient
             lights.append((weight * VEIL, light))
@@ -128,8 +135,13 @@ class Illumination:
         ]
 
     @property
+    def direct(self) -> list[Weighted]:
+        """All but the ambient light on the character."""
+        return [*self.character, *self.glows]
+
+    @property
     def _sources(self) -> list[Weighted]:
-        return [*self.character, *(() if self.ambient is None else (self.ambient,))]
+        return [*self.direct, *(() if self.ambient is None else (self.ambient,))]
 
     @cached_property
     def floor_ratio(self) -> Floats | None:
@@ -155,7 +167,7 @@ def weigh(passes: Passes, scene: Scene) -> list[Source]:
     found.append(Source(ambient, passes.ambient))
     for glow in get_args(GlowName):
         if (traced := getattr(passes, glow)) is not None:
-            found.append(Source(glow_weight(glow, scene), traced))
+            found.append(Source(glow_weight(glow, scene), traced, is_glow=True))
     return [source for source in found if source.weight.any()]
 
 

@@ -15,7 +15,7 @@ from .borders import mixed_labels, swatch_albedos
 from .illumination import Illumination
 from .resample import Band, enlarge
 from .shading import Shading
-from .tones import highlight_shares, tone_shares
+from .tones import highlight_shares, shade_at, tone_shares
 
 Floats = NDArray[np.float32]
 Labels = NDArray[np.int16]
@@ -78,9 +78,8 @@ def light_at(drawing: Drawing, shading: Shading, band: Band) -> PixelLight:
             dark = 1 - np.clip(enlarge(tones.amount[..., None], band), 0, 1)
             smooth = smooth + tones.strength * dark * (tones.tint - smooth)
     if tones is not None and (materials.diffuse & materials.cel).any():
-        toned = tones.shade + tone_shares(tones, band)[..., None] * (
-            enlarge(tones.lit, band) - tones.shade
-        )
+        shade = shade_at(tones, band)
+        toned = shade + tone_shares(tones, band)[..., None] * (enlarge(tones.lit, band) - shade)
     if (materials.glossy & plain & ~materials.diffuse).any():
         glossy = enlarge(illumination.glossy, band)
     if (materials.glossy & plain & materials.diffuse).any():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..colour import linear, srgb
 from ..compiled import compiled
@@ -57,6 +58,23 @@ def level(picture: Any, u: float, v: float) -> Any:
     above = picture[y0, x0] + s * (picture[y0, x1] - picture[y0, x0])
     below = picture[y1, x0] + s * (picture[y1, x1] - picture[y1, x0])
     return above + t * (below - above)
+
+
+def resized(plane: NDArray[np.float32], size: tuple[int, ...]) -> NDArray[np.float32]:
+    """(h, w) sampled at ``size`` (rows, columns) places, bilinear; the outer edges coincide."""
+    if plane.shape == size:
+        return plane
+    found = np.empty(size, np.float32)
+    _resize(np.require(plane, np.float32, ("C", "W")), found)
+    return found
+
+
+@compiled
+def _resize(plane: Any, found: Any) -> None:
+    rows, columns = found.shape
+    for row in range(rows):
+        for column in range(columns):
+            found[row, column] = level(plane, (column + 0.5) / columns, (row + 0.5) / rows)
 
 
 @compiled

@@ -23,6 +23,7 @@ from .illumination import Illumination
 from .islands import without_islands
 from .linking import Link
 from .resample import Band, Box, enlarge
+from .shadowed import cast_shadow, reflected_into_shade
 from .spline import refined
 from .sums import add_up, brightest_of
 
@@ -36,6 +37,7 @@ MOST = 3
 CEL = Look(tones=(0.42,), shade_strength=0.5)
 """The tones of a material in tones, in a scene without any."""
 FLOOR_TONE = 0.25
+_NONE = np.zeros((1, 1), np.float32)
 
 Floats = NDArray[np.float32]
 
@@ -48,7 +50,10 @@ class Tones:
         amount: (h, w) direct light as a share of the full light, linear.
         shine: (h, w) glossy light in the same measure.
         lit: (h, w, 3) scene-linear, the light of the brightest tone.
-        shade: (3,) the light of the darkest.
+        shade: (3,) the light of the darkest, where surfaces turn away from the light.
+        cast: (h, w) where something is in the way of the light, see ``cast_shadow``; (1, 1) if cast
+            shadows have no tone of their own. cast_shade: (3,) the light there. cast_steps: where
+            the step to it begins and ends, (1,) each.
         lows, highs: (n,) where each step begins and ends. highlight: (2,) the same of highlights.
         tint: (3,) what smooth light becomes in full shade. strength: how far.
     """
@@ -57,6 +62,9 @@ class Tones:
     shine: Floats
     lit: Floats
     shade: Floats
+    cast: Floats
+    cast_shade: Floats
+    cast_steps: tuple[Floats, Floats]
     lows: Floats
     highs: Floats
     highlight: Floats
@@ -75,8 +83,8 @@ def tones_of(
         shine: whether there are highlights.
     """
     look = scene.look if scene.look.tones else replace(CEL, shade_colour=scene.look.shade_colour)
-    direct = add_up([(weight, light) for weight, light, _ in illumination.character])
-    full = np.float32(full_light(scene) or (1.0 if illumination.character else 0.0))
+    direct = add_up([(weight, light) for weight, light, _ in illumination.direct])
+    full = np.float32(full_light(scene) or (1.0 if illumination.direct else 0.0))
     height, width = direct.shape[:2]
     element = max(area[2] / width, area[3] / height)
     longest = max(scene.canvas.width, scene.canvas.height)
@@ -84,9 +92,18 @@ def tones_of(
     brightest = brightest_of(direct)
     reach = reach_of_light(scene, area, (height, width)) if full_light(scene) > 0 else full
     lows, highs = steps(look)
+    smallest = round((ISLAND * longest / element) ** 2)
+    form, cast = illumination.form if full_light(scene) > 0 else None, _NONE
     if full > 0:
-        amount = blurred(brightest / reach, blur)
-        amount = without_islands(amount, lows, highs, round((ISLAND * longest / element) ** 2))
+        steady = brightest
+        if form is not None and scene.floor is not None:
+            traced = brightest_of(add_up([(w, light) for w, light, _ in illumination.character]))
+            steady = brightest - reflected_into_shade(traced, form, scene, area, float(full))
+        amount = blurred(steady / reach, blur)
+        if form is not None and look.tones and look.cast_strength > 0:
+            cast = blurred(cast_shadow(amount, reach, form, scene, area, float(lows[0])), blur)
+            cast = without_islands(cast, *cast_steps(look), smallest)
+        amount = without_islands(amount, lows, highs, smallest)
     else:
         amount = np.ones((height, width), np.float32)
     ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
@@ -103,17 +120,22 @@ def tones_of(
         lit,
     )
     tint = hex_linear(look.shade_colour) * np.float32(scale * (ambient.max() + full))
+    shade = (scale * ambient + look.shade_strength * (tint - scale * ambient)).astype(np.float32)
+    deep = hex_linear(look.cast_colour) * np.float32(scale * (ambient.max() + full))
     factor = min(MOST, max(1, math.ceil(element / pixel / 2)))
     edge = np.float32(look.highlight**2), np.float32((look.highlight + look.softness / 2) ** 2)
     mirrored = np.zeros((1, 1), np.float32)
     if shine and full > 0:
-        glossy = add_up([(weight, light) for weight, _, light in illumination.character])
+        glossy = add_up([(weight, light) for weight, _, light in illumination.direct])
         mirrored = refined(blurred(brightest_of(glossy) / full, blur), factor)
     return Tones(
         amount=refined(np.ascontiguousarray(amount, np.float32), factor),
         shine=mirrored,
         lit=lit,
-        shade=(scale * ambient + look.shade_strength * (tint - scale * ambient)).astype(np.float32),
+        shade=shade,
+        cast=refined(np.ascontiguousarray(cast, np.float32), factor if cast is not _NONE else 1),
+        cast_shade=(shade + look.cast_strength * (deep - shade)).astype(np.float32),
+        cast_steps=cast_steps(look),
         lows=lows,
         highs=highs,
         highlight=np.array(edge, np.float32),
@@ -175,11 +197,27 @@ def steps(look: Look) -> tuple[Floats, Floats]:
     return (low * low).astype(np.float32), (high * high).astype(np.float32)
 
 
+def cast_steps(look: Look) -> tuple[Floats, Floats]:
+    """(1,) where the step to the tone of cast shadows begins, and where it ends."""
+    half = look.softness / 4
+    return np.array([0.5 - half], np.float32), np.array([0.5 + half], np.float32)
+
+
 def tone_shares(tones: Tones, band: Band) -> Floats:
     """(rows, W) how bright the tone of each pixel of ``band`` is: 0 is shade, 1 the brightest."""
     shares = np.empty((band.bottom - band.top, band.width), np.float32)
     _shares(tones.amount, tones.lows, tones.highs, band.top, band.bottom, band.height, shares)
     return shares
+
+
+def shade_at(tones: Tones, band: Band) -> Floats:
+    """(rows, W, 3) the light of the darkest tone at each pixel of ``band``; (3,) if it is the same
+    everywhere."""
+    if tones.cast.size <= 1:
+        return tones.shade
+    shares = np.empty((band.bottom - band.top, band.width, 1), np.float32)
+    _shares(tones.cast, *tones.cast_steps, band.top, band.bottom, band.height, shares[..., 0])
+    return np.asarray(tones.shade + shares * (tones.cast_shade - tones.shade), np.float32)
 
 
 def highlight_shares(tones: Tones, band: Band) -> Floats:

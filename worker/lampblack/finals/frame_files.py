@@ -45,13 +45,15 @@ class LitCel:
         prepared, scene, passes = traced.task.prepared, traced.task.scene, traced.passes
         drawing = prepared.layers
         assert isinstance(drawing, Drawing)
-        edges = prepared.edges_for(scene)
+        edges, form = prepared.edges_for(scene), prepared.form_for(scene)
         if targets.kind == "exr":
-            apart = None if targets.apart == "none" else float_stages(drawing, passes, scene, edges)
+            apart = None
+            if targets.apart != "none":
+                apart = float_stages(drawing, passes, scene, edges, form)
             return LitCel(make_layers(prepared, scene, passes), apart)
         if targets.apart == "none":
-            return LitCel(composite(drawing, passes, scene, edges=edges))
-        stages = byte_stages(drawing, passes, scene, edges)
+            return LitCel(composite(drawing, passes, scene, edges=edges, form=form))
+        stages = byte_stages(drawing, passes, scene, edges, form)
         return LitCel(stages.lit[-1], stages)
 
 

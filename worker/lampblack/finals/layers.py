@@ -61,7 +61,7 @@ def make_layers(prepared: PreparedDrawing, scene: Scene, passes: Passes) -> Laye
     band = Band(columns, rows, 0, rows)
     cover = drawing.coverage[..., None]
     sources = weigh(passes, scene)
-    illumination = Illumination.sum_of(sources, passes.ambient)
+    illumination = Illumination.of(passes, scene, prepared.form_for(scene))
     diffuse, glossy, unlit = character_light(drawing, scene, illumination, band)
     colour = {
         "diffuse": cover * diffuse,

@@ -200,7 +200,9 @@ class Painter:
         on_character = [(c, found) for c, found in pairs if c.subject == "character"]
         ambient = next((found for c, found in on_character if c.is_ambient), None)
         light = Illumination(
-            character=[f for c, f in on_character if not c.is_ambient and c.link is None],
+            character=[f for c, f in on_character if c.light is not None and c.link is None],
+            glows=[f for c, f in on_character if c.glow is not None],
+            form=drawing.form_for(view.scene),
             linked={
                 link: [found for c, found in on_character if c.link == link]
                 for link in dict.fromkeys(c.link for c, _ in on_character)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ..composite.open_light import open_light, towards
 from ..composite.resample import Box
 from ..prepared import PreparedDrawing
 from ..render import LightPasses, Passes
@@ -75,39 +76,27 @@ class SketchedSurface:
 
     def _light(self, light: AreaLight, scene: Scene) -> LightPasses:
         """A light of power 1, in white: irradiance over pi."""
-        canvas = scene.canvas
-        at = np.array([light.x, light.y, light.z], np.float32)
-        if light.kind == "sun":
-            towards = at - np.array([canvas.width / 2, canvas.height / 2, 0], np.float32)
-            towards = towards if np.abs(towards).max() > 1e-3 else np.array([0, 0, 1], np.float32)
-            away = np.broadcast_to(towards, self.places.shape)
-        else:
-            away = at - self.places
-        distance = np.maximum(np.linalg.norm(away, axis=2), 1e-3)
-        towards = away / distance[..., None]
-        facing = (self.normals * towards * np.array([1, -1, 1], np.float32)).sum(axis=2)
-        strength = np.maximum(facing, 0)
-        radius = light.size / 2
-        if light.kind == "lamp":
-            unit = canvas.default_height
-            calibrated = (unit**2 + radius**2) / (distance**2 + radius**2)
-            strength = strength * calibrated * np.abs(towards[..., 2])
-        spread = np.minimum(radius / distance, 1)
-        return LightPasses(_grey(strength * self._reached(towards, spread)), _DARK)
+        ways = towards(light, scene.canvas, self.places)
+        strength = open_light(light, scene.canvas, self.normals, ways)
+        distance = np.maximum(np.linalg.norm(ways, axis=2), 1e-3)
+        spread = np.minimum(light.size / 2 / distance, 1)
+        return LightPasses(
+            _grey(strength * self._reached(ways / distance[..., None], spread)), _DARK
+        )
 
-    def _reached(self, towards: Floats, spread: Floats) -> Floats:
+    def _reached(self, to: Floats, spread: Floats) -> Floats:
         """(h, w) in 0..1: how much of the light is not covered by the height on the way to it,
-        given the directions ``towards`` it, (h, w, 3), and its radius over its distance."""
-        level = np.hypot(towards[..., 0], towards[..., 1])
-        slope = towards[..., 2] / np.maximum(level, 1e-3)
+        given the directions ``to`` it, (h, w, 3), and its radius over its distance."""
+        level = np.hypot(to[..., 0], to[..., 1])
+        slope = to[..., 2] / np.maximum(level, 1e-3)
         rise, covered = self.places[..., 2], np.zeros(level.shape, np.float32)
         rows, columns = level.shape
         row, column = np.indices(level.shape, np.float32)
         longest = 0.6 * max(rows, columns)
         for step in range(1, _STEPS + 1):
             reach = longest * (step / _STEPS) ** 1.5 + 1.0  # in elements
-            at_row = row + reach * towards[..., 1] / np.maximum(level, 1e-3)
-            at_column = column + reach * towards[..., 0] / np.maximum(level, 1e-3)
+            at_row = row + reach * to[..., 1] / np.maximum(level, 1e-3)
+            at_column = column + reach * to[..., 0] / np.maximum(level, 1e-3)
             here = (at_row >= 0) & (at_row < rows) & (at_column >= 0) & (at_column < columns)
             r = np.clip(at_row, 0, rows - 1).astype(np.intp)
             c = np.clip(at_column, 0, columns - 1).astype(np.intp)

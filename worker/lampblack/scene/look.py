@@ -20,6 +20,8 @@ class Look:
     sees them: 0 is no light, 1 a surface that faces the strongest light. Without any the light is
     smooth. ``softness`` is the width of the blend at a threshold; 0 is hard. ``shade_strength`` is
     how far the shade has the drawn colour times ``shade_colour`` in place of its own light.
+    ``cast_strength`` is how far shadows that something casts on the character have the drawn colour
+    times ``cast_colour`` in place of the light of the shade, where there are tones.
     ``highlight`` is the threshold of the highlights of glossy paint, where there are tones.
 
     ``contact`` darkens where surfaces touch. With ``ink_light`` the line takes light: it is darker
@@ -30,6 +32,8 @@ class Look:
     softness: Unit = 0.05
     shade_colour: Colour = "#4a4468"
     shade_strength: Unit = 0.0
+    cast_colour: Colour = "#332e52"
+    cast_strength: Unit = 0.0
     highlight: Unit = 0.5
     contact: Unit = 0.0
     ink_light: Unit = 0.0
