@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -171,6 +172,15 @@ def test_filled_black_is_fill_and_its_border_line() -> None:
     assert {swatch.colour for swatch in drawing.palette.swatches} == {"#f0c8a0", "#000000"}
     assert drawing.lines[130, 120] == 0
     assert drawing.lines[130, 145:155].max() == 1
+
+
+def test_blots_where_lines_meet_are_line_and_pupils_are_fill() -> None:
+    """One would be darker than the lines around it in the shade: a black patch."""
+    file = Path(__file__).parents[2] / "examples" / "animation" / "lamplighter.0004.png"
+    drawing = decompose_drawing(np.asarray(Image.open(file).convert("RGBA")))
+    assert drawing.ink[545:550, 308:318].min() > 0.9
+    assert drawing.ink[200:210, 278:286].max() < 0.1
+    assert drawing.ink[236:246, 330:342].max() < 0.1
 
 
 def test_art_without_ink_has_borders_for_lines() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from .coloured_strokes import whole_strokes
 from .cutout import Colours, Cutout
@@ -33,14 +34,20 @@ _SAME_INK = 45
 """Levels by which a pixel may differ from the main ink and still belong to it."""
 
 
+_BLOT = 1.15
+"""How much wider than the narrowest filled area a blot may be where lines meet."""
+_MEETING, _OPEN = 3, 0.2
+"""Number of lines that run into such a blot, and the share of its boundary where they do."""
+
+
 def find_ink(cutout: Cutout) -> Mask:
     """Find the pixels of the character that are line, not fill.
 
     A line is a valley of luma that a morphological closing fills: it is narrow and darker
     than both sides. The most common colour of the valleys is the main ink. All pixels of that
     colour are line, even with fill on one side or none (outlines, whiskers), except areas
-    wider than the drawing's own lines, which are filled with black. A stroke of another flat colour
-    is line or fill as a whole. In line art every pixel
+    wider than the drawing's own lines, which are filled with black. Blots where lines meet are line
+    too. A stroke of another flat colour is line or fill as a whole. In line art every pixel
     darker than the bare paper is line, however faint or broken.
 
     Returns:
@@ -120,14 +127,34 @@ def _wide_parts(area: Mask, widest: int) -> Mask:
     usual = float(np.median(ridge))
     radius = min(max(2.5, 1.6 * usual), widest)
     wide = depth > radius
-    core = regions_holding(wide, depth > min(max(4.0, 2.8 * usual), max(widest, 2.2 * usual)))
+    least = min(max(4.0, 2.8 * usual), max(widest, 2.2 * usual))
+    core = regions_holding(wide, depth > least)
     if not core.any():
         return core
     wide = area & near(core, radius + 2.5)
     # The disc does not fit into corners; what remains there is no line.
     rest = area & ~wide
     corners = rest & ~without_specks(rest, round(4 * usual**2))
-    return regions_holding(wide | corners, wide)
+    found = regions_holding(wide | corners, wide)
+    return found & ~_joints(found, area & ~found, depth, _BLOT * least)
+
+
+def _joints(wide: Mask, lines: Mask, depth: NDArray[np.float32], least: float) -> Mask:
+    """Those of the ``wide`` regions, none of them deeper than ``least``, into which lines run from
+    several sides: blots where lines meet."""
+    regions, _ = ndimage.label(wide, np.ones((3, 3)))
+    joints = np.zeros_like(wide)
+    for number, box in enumerate(ndimage.find_objects(regions), 1):
+        window = tuple(slice(max(0, side.start - 1), side.stop + 1) for side in box)
+        region = regions[window] == number
+        if depth[window][region].max() > least:
+            continue
+        shore = highest(region, 1) & ~region
+        mouths = shore & lines[window]
+        _, count = ndimage.label(mouths, np.ones((3, 3)))
+        if count >= _MEETING and np.count_nonzero(mouths) > _OPEN * np.count_nonzero(shore):
+            joints[window] |= region
+    return joints
 
 
 def _length(lines: Mask) -> float:
