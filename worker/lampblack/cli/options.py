@@ -16,10 +16,10 @@ from ..finals.settings import RenderSettings
 
 OPTIONS: dict[str, Any] = {
     "input": typer.Argument(
-        metavar="INPUT", help="A picture, folder, walk.%04d.png, .pclx, .ora or .psd."
+        metavar="INPUT", help="A picture, folder, walk.%04d.png, .pclx, .ora, .psd or .kra."
     ),
     "inputs": typer.Argument(
-        metavar="INPUT", help="Picture, folder, walk.%04d.png, or one .pclx, .ora or .psd."
+        metavar="INPUT", help="Picture, folder, walk.%04d.png, or one .pclx, .ora, .psd, .kra."
     ),
     "output": typer.Option(
         "-o",

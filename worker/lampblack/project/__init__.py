@@ -1,5 +1,5 @@
-"""Pencil2D projects, and drawings with layers (OpenRaster, Photoshop), read without their programs
-and without trust: names, sizes and counts in the files are checked."""
+"""Pencil2D projects, and drawings with layers (OpenRaster, Photoshop, Krita), read without their
+programs and without trust: names, sizes and counts in the files are checked."""
 
 from .camera_layer import CameraKey
 from .document import Key, Layer, Project

@@ -73,10 +73,19 @@ def open_archive(path: Path) -> Described:
     suffix = path.suffix.lower()
     if suffix == ".pcl":
         return _Folder(path)
-    return _Zipped(path, "stack.xml" if suffix == ORA else "main.xml")
+    return Zipped(path, "stack.xml" if suffix == ORA else "main.xml")
 
 
-class _Zipped:
+class Zipped:
+    """A zip file.
+
+    Args:
+        description: the name of the XML.
+
+    Raises:
+        ProjectError: it is no zip file, or holds too many files.
+    """
+
     def __init__(self, path: Path, description: str) -> None:
         self.path = path
         self._description = description
@@ -93,7 +102,7 @@ class _Zipped:
     def xml(self) -> bytes:
         if self._description not in self._names:
             self._explain()
-        return self._read(self._description, MAX_XML_BYTES)
+        return self.entry(self._description, MAX_XML_BYTES)
 
     def _explain(self) -> None:
         """Say why the description is not there."""
@@ -115,12 +124,21 @@ class _Zipped:
 
     def read(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
         _check_name(name)
-        return self._read(f"data/{name}", limit)
+        return self.entry(f"data/{name}", limit)
 
     def picture(self, name: str, data: bytes, subject: str) -> NDArray[np.uint8]:
         return read_picture(io.BytesIO(data), subject)
 
-    def _read(self, name: str, limit: int) -> bytes:
+    def holds(self, name: str) -> bool:
+        """Whether there is an entry of this whole name."""
+        return name in self._names
+
+    def entry(self, name: str, limit: int = MAX_FILE_BYTES) -> bytes:
+        """The entry of this whole name.
+
+        Raises:
+            ProjectError: it is missing, damaged or too large.
+        """
         if name not in self._names:
             raise _missing(self.path, name)
         damaged = ProjectError(

@@ -15,9 +15,11 @@ from .attributes import check_size, number, sound_xml, whole
 from .camera_layer import Between, Camera, CameraKey
 from .document import Key, Kind, Layer, Project
 from .easing import CURVES, LINEAR
+from .kra import read_kra
 from .ora import parse_stack
 
 PSD = (".psd", ".psb")
+KRA = ".kra"
 BITMAP, VECTOR, CAMERA = "1", "2", "5"
 KINDS: dict[str, Kind] = {BITMAP: "bitmap", VECTOR: "vector"}
 MAX_LAYERS = 1000
@@ -28,7 +30,7 @@ DEFAULT_CAMERA = Camera("Camera Layer", 800, 600, (CameraKey(1),))
 """What Pencil2D adds to a project of its early versions, which has none."""
 
 
-SUFFIXES = (".pclx", ".pcl", ORA, *PSD)
+SUFFIXES = (".pclx", ".pcl", ORA, KRA, *PSD)
 """Of all files that are read as projects."""
 
 
@@ -48,6 +50,8 @@ def read_project(path: str | Path) -> tuple[Project, Archive]:
         from .psd import read_psd  # psd-tools takes a moment to load
 
         return read_psd(path)
+    if path.suffix.lower() == KRA:
+        return read_kra(path)
     archive = open_archive(path)
     xml, name = archive.xml(), archive.path.name
     if archive.path.suffix.lower() == ORA:
