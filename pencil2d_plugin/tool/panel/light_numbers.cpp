@@ -107,7 +107,8 @@ void LightNumbers::addRows()
                  tr("1 lights what faces it, from the usual height, to its drawn colour."));
     mSize = add("size", tr("Size"), sizeScale(unit), tr("Diameter. A large light makes soft shadows."));
     mHeight = add("height", tr("Height"), heightScale(unit),
-                  tr("Above the paper; below 0 the light stands behind it and draws a rim."));
+                  tr("Above the paper; below 0 the light stands behind it and lights only edges that turn "
+                     "away. For a line of light, use the rim of the look."));
     mKeys = new KeysRow(named("keys"), mHost, this);
     rows->addWidget(mKeys);
     rows->addWidget(more());

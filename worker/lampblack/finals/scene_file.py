@@ -19,6 +19,7 @@ from ..prepared import PreparedDrawing
 from ..render import QUALITIES, RenderChild, frame_request
 from ..scene import Scene, shining
 from ..surface import Relief
+from .left_out import warn_without_glows
 
 SUFFIXES = (".glb", ".blend")
 GLOSSY, MATT = 0.5, 1.0
@@ -26,6 +27,7 @@ GLOSSY, MATT = 0.5, 1.0
 
 def save_scene(drawing: Drawing, prepared: PreparedDrawing, scene: Scene, path: Path) -> None:
     """Write the relief in its drawing's colours. A .blend also has the lights, floor and camera.
+    It warns of lights that it leaves out.
 
     In both, half the canvas's long side is 1, and the canvas's centre is the origin, with x right,
     y up, z to the viewer. (Blender rotates a GLB on import, because its z axis points up.)
@@ -38,6 +40,7 @@ def save_scene(drawing: Drawing, prepared: PreparedDrawing, scene: Scene, path: 
     if path.suffix.lower() == ".glb":
         _save_glb(prepared, relief, scene, path)
         return
+    warn_without_glows(prepared, scene, path.name)
     shown = zip(scene.lights, shining(scene.lights), strict=True)
     lit = replace(scene, lights=tuple(light for light, shines in shown if shines))
     request = frame_request(drawing.size, surface, lit)

@@ -20,6 +20,7 @@ from ..prepared import PreparedDrawing
 from ..render import LightPasses, Passes, frame_request
 from ..scene import Material, Scene
 from ..surface import Relief, visible_faces
+from .left_out import warn_without_glows
 
 FARTHEST = 40.0
 """Largest angle to either side, degrees."""
@@ -53,12 +54,14 @@ def turn_table(
 
     Args:
         prepared: from ``drawing``, in full detail.
-        scene: in the drawing's pixels; lights do not move, and the floor is omitted.
+        scene: in the drawing's pixels; lights do not move, and the floor is omitted. So is light
+            that comes from surfaces, of which it warns.
         count: number of pictures in the loop. size: longest side of each half, pixels.
 
     Raises:
         RenderError: the renderer failed.
     """
+    warn_without_glows(prepared, scene, "The turntable")
     scene = replace(scene, quality="medium", floor=None)
     long_side = max(int(np.ptp(np.flatnonzero(drawing.mask.any(axis=k)))) + 1 for k in (0, 1))
     stride = max(1, round(long_side / size))
