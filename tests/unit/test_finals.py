@@ -113,6 +113,7 @@ def test_options_that_do_not_fit_a_project_are_told(
         ("shot%03d.exr", "shot007.exr"),
         ("shot.####.EXR", "shot.0007.EXR"),
         ("%d_shot.png", "7_shot.png"),
+        ("shot..png", "shot.0007.png"),
         ("folder", "walk.0007.png"),
         ("dots.in.folder", "walk.0007.png"),
     ],

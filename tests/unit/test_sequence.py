@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from lampblack.drawing import Frame, find_frames, parse_frames, select_frames
+from lampblack.drawing.numbering import is_pattern, numbered_names
 from lampblack.errors import DrawingError, LampblackWarning
 
 
@@ -42,10 +43,64 @@ def test_name_without_digits(tmp_path: Path) -> None:
     assert find_frames([tmp_path / "hero.png"]) == [Frame(None, tmp_path / "hero.png")]
 
 
-def test_gaps_and_shared_numbers_are_fine(tmp_path: Path) -> None:
-    for name in ("a.9.png", "b.9.png", "a.200.png"):
+def test_gaps_are_fine_and_two_sequences_are_told(tmp_path: Path) -> None:
+    for name in ("a.9.png", "a.200.png"):
         (tmp_path / name).touch()
-    assert numbers(find_frames([tmp_path])) == [9, 9, 200]
+    assert numbers(find_frames([tmp_path])) == [9, 200]
+    (tmp_path / "B.9.png").touch()
+    with pytest.warns(LampblackWarning, match="2 sequences \\('a', 'b'\\)"):
+        assert numbers(find_frames([tmp_path])) == [9, 9, 200]
+
+
+def test_one_number_in_two_formats_or_paddings_is_no_second_sequence(tmp_path: Path) -> None:
+    for name in ("Walk.0001.png", "walk.0002.PNG", "walk_0002.png"):
+        (tmp_path / name).touch()
+    assert numbers(find_frames([tmp_path])) == [1, 2, 2]
+
+
+@pytest.mark.parametrize(
+    ("pattern", "found"),
+    [
+        ("walk..png", [-2, 1, 10]),
+        ("WALK..png", [-2, 1, 10]),
+        ("walk.####.png", [-2, 1, 10]),
+        ("walk.%d.png", [-2, 1, 10]),
+        ("take#2.%04d.png", [7]),
+        ("walk.v..2..png", [5]),
+    ],
+)
+def test_patterns_of_opentoonz_and_others(tmp_path: Path, pattern: str, found: list[int]) -> None:
+    names = ("walk.0001.png", "walk.0010.png", "walk.-002.png", "walk.png", "walk.x.0003.png")
+    for name in (*names, "take#2.0007.png", "walk.v..2.0005.png"):
+        (tmp_path / name).touch()
+    if pattern.isupper() or pattern.startswith("WALK"):
+        with pytest.warns(LampblackWarning, match="other capitals"):
+            assert numbers(find_frames([tmp_path / pattern])) == found
+    else:
+        assert numbers(find_frames([tmp_path / pattern])) == found
+
+
+@pytest.mark.parametrize(
+    ("pattern", "number", "name"),
+    [
+        ("walk..png", 7, "walk.0007.png"),
+        ("walk.%d.png", 7, "walk.7.png"),
+        ("walk_###.exr", -7, "walk_-07.exr"),
+        ("walk.%04d.png", -7, "walk.-007.png"),
+        ("walk.%012d.png", 7, "walk.000000007.png"),
+    ],
+)
+def test_names_are_written_as_they_are_read(pattern: str, number: int, name: str) -> None:
+    (place,) = numbered_names(pattern)
+    assert place.name(number) == name
+    match = place.matching().fullmatch(name)
+    assert match is not None
+    assert int(match[1]) == number
+
+
+@pytest.mark.parametrize("name", ["..", ".", "lit..v2", "walk.png", ".png", "..png"])
+def test_other_names_are_no_patterns(name: str) -> None:
+    assert not is_pattern(name)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +12,10 @@ from typing import Protocol, TypeVar
 
 from ..errors import DrawingError, LampblackWarning
 from .load import PICTURE_SUFFIXES
+from .numbering import is_pattern, number_in, numbered_names, series
 
 MAX_FRAMES = 100_000
 
-_AT_END = re.compile(r"(?:(?<![^._ ])-)?(?<!\d)\d{1,9}$")
-"""After a letter or a digit, "-" is no sign."""
-_AT_START = re.compile(r"-?\d{1,9}(?=[-._ ])")
-_PATTERN = re.compile(r"%0?(\d*)d|#+|(?<=\.)(?=\.)")
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?:x(\d{1,9}))?)?")
 
 
@@ -44,8 +42,8 @@ def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
     """The frames that ``inputs`` name.
 
     An input is a picture file, a folder of them, or a pattern: ``walk.%04d.png``,
-    ``walk.####.png`` or ``walk..png``. The frame number is at the end of the name
-    (``walk.0001.png``, ``walk0001.png``, ``walk.-0001.png``), or else at its start
+    ``walk.####.png`` or ``walk..png``, as OpenToonz has it. The frame number is at the
+    end of the name (``walk.0001.png``, ``walk0001.png``, ``walk.-0001.png``), or else at its start
     (``1-walk.png``). The frames of a folder or a pattern are sorted by number, those without one
     come last; gaps are allowed. Inputs keep their order. A file that is named twice counts once.
 
@@ -53,7 +51,8 @@ def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
         DrawingError: nothing is named, a file is missing, or a folder has no pictures.
 
     Warns:
-        LampblackWarning: a folder holds links to pictures that do not exist.
+        LampblackWarning: a folder holds links to pictures that do not exist, or several sequences;
+            or a pattern has other capitals than its files.
     """
     if not inputs:
         raise DrawingError("No drawing was named.", "Name a PNG file or a folder of them.")
@@ -136,30 +135,57 @@ def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[
 
 def _frames_of(path: Path) -> list[Frame]:
     if path.is_dir():
-        frames = [Frame(_number(file), file) for file in _pictures_in(path)]
+        frames = [Frame(number_in(file), file) for file in _pictures_in(path)]
+        _tell_of_series(path, frames)
         return _in_order(frames, f"The folder {path} holds no pictures.")
-    pattern = _PATTERN.search(path.name)
-    if pattern is not None and not path.exists():
-        if not path.parent.is_dir():
-            raise DrawingError(f"There is no folder {path.parent}.", "Check its name.")
-        before, after = path.name[: pattern.start()], path.name[pattern.end() :]
-        number = _padded(pattern)
-        name = re.compile(re.escape(before) + f"({number})" + re.escape(after))
-        matches = [
-            Frame(int(match[1]), file)
-            for file in _pictures_in(path.parent)
-            if (match := name.fullmatch(file.name))
-        ]
-        return _in_order(matches, f"No frames match {path}.")
+    if is_pattern(path.name) and not path.exists():
+        return _matching(path)
     if not path.exists():
         raise DrawingError(f"There is no drawing at {path}.", "Check the name and the folder.")
-    return [Frame(_number(path), path)]
+    return [Frame(number_in(path), path)]
 
 
-def _padded(pattern: re.Match[str]) -> str:
-    """What a number looks like there. A sign may count as one of the digits, or not."""
-    width = len(pattern[0]) if pattern[0].startswith("#") else int(pattern[1] or 1)
-    return rf"\d{{{width},9}}|-\d{{{max(1, width - 1)},9}}"
+def _tell_of_series(folder: Path, frames: Sequence[Frame]) -> None:
+    """Warn if a folder holds more than one drawing of a number, under several names."""
+    numbers = Counter(frame.number for frame in frames if frame.number is not None)
+    twice = {number for number, n in numbers.items() if n > 1}
+    names = sorted({series(frame.path) for frame in frames if frame.number in twice})
+    if len(names) > 1:
+        warnings.warn(
+            f"{folder} holds {len(names)} sequences ({', '.join(map(repr, names[:4]))}), which are "
+            "lit as one. Name each by a pattern, such as walk.%04d.png, to light it on its own.",
+            LampblackWarning,
+            stacklevel=4,
+        )
+
+
+def _matching(path: Path) -> list[Frame]:
+    """The frames of a pattern. Capitals count only if that tells two files apart.
+
+    Warns:
+        LampblackWarning: the files have other capitals than the pattern.
+    """
+    if not path.parent.is_dir():
+        raise DrawingError(f"There is no folder {path.parent}.", "Check its name.")
+    pictures = _pictures_in(path.parent)
+    for flags in (0, re.IGNORECASE):
+        # The last place is meant: other digits, "#" and dots may be part of the name.
+        name = re.compile(numbered_names(path.name)[-1].matching().pattern, flags)
+        matches = [
+            Frame(int(match[1]), file)
+            for file in pictures
+            if (match := name.fullmatch(file.name)) is not None
+        ]
+        if matches and flags:
+            warnings.warn(
+                f"No file is named exactly as {path.name}; {matches[0].path.name} and others with "
+                "other capitals are used.",
+                LampblackWarning,
+                stacklevel=3,
+            )
+        if matches:
+            break
+    return _in_order(matches, f"No frames match {path}.")
 
 
 def _pictures_in(folder: Path) -> list[Path]:
@@ -196,8 +222,3 @@ def _natural(name: str) -> list[tuple[int, str]]:
     """A key by which ``a2b`` comes before ``a10b``."""
     parts = re.split(r"(\d{1,9})", name)
     return [(int(part), "") if part.isdigit() else (-1, part) for part in parts if part]
-
-
-def _number(path: Path) -> int | None:
-    match = _AT_END.search(path.stem) or _AT_START.match(path.stem)
-    return int(match[0]) if match else None

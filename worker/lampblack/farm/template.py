@@ -10,10 +10,10 @@ from typing import Any, get_args
 import msgspec
 
 from ..choices import FileFormat
+from ..drawing.numbering import is_pattern
 from ..drawing.sequence import frame_list
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
-from ..finals.targets import NUMBERED
 
 VERSION = "jobtemplate-2023-09"
 FRAMES = "{{Task.Param.Frames}}"
@@ -120,7 +120,7 @@ class _Path:
     @staticmethod
     def of(path: str) -> _Path:
         whole = Path(path)
-        if NUMBERED.search(whole.name) and not whole.exists():
+        if is_pattern(whole.name) and not whole.exists():
             return _Path(whole.parent, whole.name)
         return _Path(whole)
 

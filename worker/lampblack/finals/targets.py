@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import get_args
 from ..choices import ApartKind, FileFormat
 from ..composite.apart import LAYERS
 from ..drawing import PICTURE_SUFFIXES
+from ..drawing.numbering import numbered_names
 from ..errors import LampblackError
 from ..shot import ShotFrame
 from .exr import exr_stamp
@@ -18,12 +18,11 @@ from .ora import ora_stamp
 from .png import png_stamp
 
 _STAMPS = {".png": png_stamp, ".exr": exr_stamp, ".ora": ora_stamp}
-NUMBERED = re.compile(r"%0?(\d?)d|#+")
 
 
 class Targets:
     """The files of frames. ``output`` is a folder (frames keep their names), a pattern
-    (``out/a.%04d.png``, ``out/a####.exr``), or one file name for one frame.
+    (``out/a.%04d.png``, ``out/a####.exr``, ``out/a..png``), or one file name for one frame.
 
     Args:
         output: folder, pattern or file name.
@@ -44,7 +43,7 @@ class Targets:
         apart: ApartKind = "none",
     ) -> None:
         self._path = Path(output)
-        number = list(NUMBERED.finditer(self._path.name))
+        number = numbered_names(self._path.name)
         suffix = self._path.suffix.lower().removeprefix(".")
         named = suffix in kinds and not self._path.is_dir()
         if number and not named:
@@ -80,12 +79,8 @@ class Targets:
             return self._path / Path(frame.name).with_suffix(f".{self.kind}")
         if self._number is None:
             return self._path
-        found, name = self._number, self._path.name
-        width = int(found[1] or 1) if found[0].startswith("%") else len(found[0])
         assert frame.number is not None
-        return self._path.with_name(
-            f"{name[: found.start()]}{frame.number:0{width}d}{name[found.end() :]}"
-        )
+        return self._path.with_name(self._number.name(frame.number))
 
     def paths(self, frame: ShotFrame) -> list[Path]:
         """All files of ``frame``: its layers, and last the frame itself."""
