@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageCms
 
+from lampblack import colour
 from lampblack.drawing import load_picture, save_picture
 from lampblack.errors import DrawingError, LampblackError, LampblackWarning
 
@@ -223,6 +224,38 @@ def test_the_gamma_of_a_png_is_applied(tmp_path: Path, kind: int, depth: int) ->
     assert first_row(tmp_path, png(1, 1, depth, kind, row, linear)) == [[188, 188, 188, 255]]
     for extra in (b"", chunk(b"gAMA", struct.pack(">I", 45_455)), linear + chunk(b"sRGB", b"\0")):
         assert first_row(tmp_path, png(1, 1, depth, kind, row, extra))[0][0] == 128
+
+
+@pytest.mark.parametrize("kind", [GREY, RGB, RGB_ALPHA])
+def test_dark_tones_of_linear_light_are_read_in_16_bits(tmp_path: Path, kind: int) -> None:
+    """In 8 bits there are 13 levels of sRGB between the two darkest."""
+    light = np.arange(0, 2000, 7)
+    channels = {GREY: 1, RGB: 3, RGB_ALPHA: 4}[kind]
+    row = words(*np.repeat(light, channels).tolist())
+    linear = chunk(b"gAMA", struct.pack(">I", 100_000))
+    found = np.array(first_row(tmp_path, png(len(light), 1, 16, kind, row, linear)))
+    expected = np.rint(colour.srgb(light / 65535) * 255)
+    assert np.array_equal(found[:, 0], expected)
+    assert np.array_equal(found[:, 2], expected)
+    if kind == RGB_ALPHA:
+        assert np.array_equal(found[:, 3], (light + 128) // 257)
+
+
+def test_a_linear_profile_is_read_in_16_bits(tmp_path: Path) -> None:
+    red, green, blue = (0.4360, 0.2225, 0.0139), (0.3851, 0.7169, 0.0971), (0.1431, 0.0606, 0.7141)
+    curve = b"curv\0\0\0\0" + struct.pack(">IH", 1, 256)
+    profile = icc_profile(colorant(*red), colorant(*green), colorant(*blue), curve)
+    packed = chunk(b"iCCP", b"p\0\0" + zlib.compress(profile))
+    light = np.arange(0, 2000, 7)
+    row = words(*np.repeat(light, 3).tolist())
+    found = np.array(first_row(tmp_path, png(len(light), 1, 16, RGB, row, packed)))
+    assert np.array_equal(found[:, 1], np.rint(colour.srgb(light / 65535) * 255))
+
+
+def test_a_transparent_colour_of_linear_light_stays_so(tmp_path: Path) -> None:
+    extra = chunk(b"gAMA", struct.pack(">I", 100_000)) + chunk(b"tRNS", words(258, 0, 0))
+    found = first_row(tmp_path, png(2, 1, 16, RGB, words(258, 0, 0, 257, 0, 0), extra))
+    assert [pixel[3] for pixel in found] == [0, 255]
 
 
 def icc_profile(red: bytes, green: bytes, blue: bytes, curve: bytes) -> bytes:

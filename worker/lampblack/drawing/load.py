@@ -7,7 +7,7 @@ import struct
 import warnings
 import zlib
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,8 @@ from PIL.WebPImagePlugin import WebPImageFile
 from ..atomic import atomic_file
 from ..errors import DrawingError, LampblackWarning
 from ..files import open_regular, read_bounded, understood
-from .profile import to_srgb
+from .profile import gamma_of, to_srgb
+from .sixteen_bits import fine_picture, levels_of
 
 MAX_SIDE = 16384
 MAX_PIXELS = 40_000_000
@@ -33,6 +34,8 @@ MAX_PICTURE_BYTES = 10 * MAX_PIXELS
 PICTURE_SUFFIXES = frozenset(
     (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".tga", ".bmp", ".gif")
 )
+
+Kind = TypeVar("Kind", bound=ImageFile)
 
 _PNG = b"\x89PNG\r\n\x1a\n"
 _FORMATS: tuple[tuple[bytes, type[ImageFile]], ...] = (
@@ -45,6 +48,7 @@ _FORMATS: tuple[tuple[bytes, type[ImageFile]], ...] = (
     (b"BM", BmpImageFile),
 )
 """Formats by the first bytes of a file, whatever its name says."""
+_ORIENTATION = 0x0112
 _PLAIN_PNG = "Export it again as a PNG from your drawing program."
 
 
@@ -103,6 +107,7 @@ def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
     """
     try:
         with understood(_damaged(name)):
+            image: ImageFile
             if file.read(len(_PNG)) == _PNG:
                 depth, image = _check_png(file, name), _open_as(PngImageFile, file)
             else:
@@ -115,6 +120,11 @@ def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
                     LampblackWarning,
                     stacklevel=2,
                 )
+            if depth == 16 and isinstance(image, PngImageFile) and image.mode in ("RGB", "RGBA"):
+                gamma = gamma_of(image)
+                if gamma is not None:
+                    fine = fine_picture(image, lambda: _open_as(PngImageFile, file), gamma)
+                    return _upright(fine, image)
             return _decode(image, depth, name)
     except MemoryError as error:
         raise DrawingError(
@@ -199,7 +209,7 @@ def _open_other(file: BinaryIO, name: str) -> ImageFile:
     raise DrawingError(f"{name} is not a picture that can be read.", _PLAIN_PNG)
 
 
-def _open_as(kind: type[ImageFile], file: BinaryIO) -> ImageFile:
+def _open_as(kind: type[Kind], file: BinaryIO) -> Kind:
     # Not Image.open: the size is checked here, and its own guard only warns.
     file.seek(0)
     return kind(file)
@@ -213,15 +223,22 @@ def _decode(image: ImageFile, depth: int, name: str) -> NDArray[np.uint8]:
     if image.mode.startswith("I"):
         grey = np.asarray(image).astype(np.uint32)
         opaque = np.ones(grey.shape, bool) if key is None else grey != key
-        level = ((grey + 128) // 257).astype(np.uint8)
+        gamma = gamma_of(image)
+        level = ((grey + 128) // 257).astype(np.uint8) if gamma is None else levels_of(gamma)[grey]
         alpha = np.where(opaque, 255, 0).astype(np.uint8)
         plain = Image.fromarray(np.dstack([level, level, level, alpha]))
-        plain.info = {k: v for k, v in image.info.items() if k != "transparency"}
+        done = ("transparency", "gamma")
+        plain.info = {k: v for k, v in image.info.items() if k not in done}
     else:
         if key is not None and image.mode == "RGB" and depth == 16:
             image.info["transparency"] = tuple(sample >> 8 for sample in key)
         if key is not None and image.mode == "L" and depth < 8:
             image.info["transparency"] = key * (255 // ((1 << depth) - 1))
         plain = image
-    upright = ImageOps.exif_transpose(plain) if image.getexif().get(0x0112, 1) != 1 else plain
-    return np.array(to_srgb(upright, name))
+    return _upright(to_srgb(plain, name), image)
+
+
+def _upright(picture: Image.Image, image: ImageFile) -> NDArray[np.uint8]:
+    """``picture``, which was made from ``image``, turned as the EXIF orientation of that says."""
+    picture.getexif()[_ORIENTATION] = turned = image.getexif().get(_ORIENTATION, 1)
+    return np.array(picture if turned == 1 else ImageOps.exif_transpose(picture))
