@@ -6,8 +6,8 @@ import os
 import struct
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,7 @@ from lampblack.project.vector import VectorPictures
 from lampblack.rigs import find_rig
 from support.command_line import Run
 from support.drawings import draw_ball
+from support.memory import little_memory
 from support.projects import ARCH, document, image, layer, needs_pencil2d, png, write_project
 
 READERS: list[Callable[[str], object]] = [
@@ -46,21 +47,6 @@ READERS: list[Callable[[str], object]] = [
 def first_drawing(name: str) -> object:
     opened = resolve_shot(RenderSettings(inputs=(name,), output="out"))
     return opened.shot.cel(opened.frames[0])
-
-
-@contextmanager
-def little_memory(most: int = 100 << 20) -> Iterator[None]:
-    """What is refused is refused with little memory, that of C libraries too."""
-    Path("/proc/self/clear_refs").write_text("5", encoding="ascii")  # the peak starts anew
-    before = _memory("VmRSS")
-    yield
-    assert _memory("VmHWM") - before < most
-
-
-def _memory(name: str) -> int:
-    """Bytes of resident memory of this process: now, or at the most."""
-    lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
-    return next(int(line.split()[1]) << 10 for line in lines if line.startswith(name))
 
 
 @pytest.mark.parametrize("reader", READERS)

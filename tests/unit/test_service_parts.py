@@ -13,6 +13,7 @@ from lampblack.camera import IDENTITY, scene_in_view
 from lampblack.composite.byte_layers import premultiplied
 from lampblack.drawing import DrawingPlanes
 from lampblack.errors import LampblackWarning
+from lampblack.lasting import lasting_thread
 from lampblack.pipeline import Pipeline
 from lampblack.prepared import PreparedDrawing
 from lampblack.preview import Viewport, ViewRequest
@@ -193,3 +194,21 @@ def test_premultiplied_and_back_in_register() -> None:
     found = premultiplied(picture)
     assert np.array_equal(found[..., 3], picture[..., 3])
     assert (found[..., :3] <= found[..., 3:]).all()
+
+
+def test_a_thread_survives_what_its_work_did_not_expect(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lampblack.lasting.PAUSE_SECONDS", 0.0)
+    told: list[Exception] = []
+    runs: list[int] = []
+
+    def run() -> None:
+        runs.append(1)
+        if len(runs) < 3:
+            raise KeyError(len(runs))
+
+    thread = lasting_thread("Work", run, told.append)
+    thread.start()
+    thread.join(5)
+    assert not thread.is_alive()
+    assert [type(error) for error in told] == [KeyError, KeyError]
+    assert len(runs) == 3

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import Protocol
 
 from ..drawing import Palette
-from ..errors import RenderError
+from ..lasting import lasting_thread
 from ..pipeline import Pipeline
 from .painter import Painter, PreviewImage
 from .preparer import Preparer
@@ -52,7 +51,7 @@ class LivePreview:
         self.preparer = Preparer(self.state, pipeline, listener.on_drawing)
         self._listener = listener
         self._threads = [
-            threading.Thread(target=part.run, name=type(part).__name__, daemon=True)
+            lasting_thread(type(part).__name__, part.run, self._report_to_all)
             for part in (self.painter, self.tracer, self.preparer)
         ]
 
@@ -70,6 +69,6 @@ class LivePreview:
             if thread.is_alive():
                 thread.join(2)
 
-    def _report_to_all(self, error: RenderError) -> None:
+    def _report_to_all(self, error: Exception) -> None:
         for session in list(self.state.views):
             self._listener.on_preview_error(session, error)

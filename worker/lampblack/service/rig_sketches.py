@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from ..camera import Affine
 from ..errors import SceneError
+from ..lasting import lasting_thread
 from ..prepared import PreparedDrawing
 from ..preview.rig_pictures import placed, placed_presets, rig_pictures
 from ..protocol import ErrorCode, GetRigs, Pixels, Rigs, Role, error_message
@@ -50,7 +51,7 @@ class RigSketches:
     def ask(self, question: RigQuestion) -> None:
         """Answer ``question`` soon; with an error, if too many wait already."""
         if self._thread is None:
-            self._thread = threading.Thread(target=self._run, name="RigSketches", daemon=True)
+            self._thread = lasting_thread("RigSketches", self._run, lambda error: None)
             self._thread.start()
         try:
             self._waiting.put_nowait(question)

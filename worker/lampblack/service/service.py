@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from ..drawing import Palette
+from ..lasting import lasting_thread
 from ..pipeline import Pipeline
 from ..preview import LivePreview, PreviewImage, PreviewRenderer
 from ..protocol import Bye, Crop, Image, Pixels, Role, Status, encode
@@ -65,7 +65,7 @@ class Service:
         self._began = clock()
         self._next_status = 0.0
         self._states: tuple[object, ...] = ()
-        self._job_thread = threading.Thread(target=self.jobs.run, name="Jobs", daemon=True)
+        self._job_thread = lasting_thread("Jobs", self.jobs.run, self._report_to_all)
 
     def start(self) -> None:
         """Start all threads."""
@@ -149,6 +149,10 @@ class Service:
     def on_preview_error(self, session: str, error: Exception) -> None:
         """Send an error of the preview."""
         self.deliver(session, fault_message(error))
+
+    def _report_to_all(self, error: Exception) -> None:
+        for session in list(self.sessions.values()):
+            self.deliver(session.name, fault_message(error))
 
     def part_with(self, session: Session) -> None:
         """Drop a client with its requests."""
