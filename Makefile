@@ -3,7 +3,7 @@
 # make lock: renew those. make test-newest: check everything with the newest versions instead.
 .PHONY: demo pencil2d install uninstall environment lock plugin schema format tidy clean \
     check check-python check-types check-cpp build-dev build-asan \
-    test test-environment test-cpp test-asan test-python test-newest test-slow
+    test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos
 
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -64,6 +64,9 @@ test-newest:
 
 test-slow: test
 	$(BIN)/pytest -m slow
+
+test-chaos: build-dev
+	LAMPBLACK_CHAOS_MINUTES=60 $(BIN)/pytest -m slow -s tests/render/test_chaos.py
 
 CPP = $$(git ls-files 'pencil2d_plugin/*.h' 'pencil2d_plugin/*.cpp' 'tests/plugin/*.h' 'tests/plugin/*.cpp')
 

@@ -50,7 +50,11 @@ def certificate(tmp_path: Path) -> tuple[Path, Path]:
     """Our own authority: certificate and key."""
     if shutil.which("openssl") is None:
         pytest.skip("openssl is not installed")
-    pem, key = tmp_path / "ca.pem", tmp_path / "ca.key"
+    return certificate_of(tmp_path)
+
+
+def certificate_of(folder: Path) -> tuple[Path, Path]:
+    pem, key = folder / "ca.pem", folder / "ca.key"
     subprocess.run(
         ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
          "-subj", "/CN=lampblack", "-keyout", key, "-out", pem],
@@ -105,3 +109,30 @@ def test_a_worker_that_dies_loses_no_frame(
     assert files(out) == {f"walk.{n:04d}.png" for n in range(1, 25)}
     pictures = [load_picture(out / f"walk.{n:04d}.png") for n in range(1, 25)]
     assert all(np.array_equal(pictures[n], pictures[n + 12]) for n in range(12))
+
+
+def test_strangers_are_kept_out_of_a_cluster(
+    tmp_path: Path,
+    cluster: tuple[str, list[subprocess.Popen[bytes]]],
+    certificate: tuple[Path, Path],
+    monkeypatch: pytest.MonkeyPatch,
+    run: Run,
+) -> None:
+    monkeypatch.setattr("lampblack.farm.cluster.CONNECT_SECONDS", 3)
+    address, _ = cluster
+    ours, own_key = certificate
+    (tmp_path / "stranger").mkdir()
+    theirs, key = certificate_of(tmp_path / "stranger")
+    project = walk(tmp_path, [1])
+    own = ("--tls-cert", ours, "--tls-key", own_key)
+    for wrong in (
+        ("--tls-ca", ours, "--tls-cert", theirs, "--tls-key", key),  # not known to the cluster
+        ("--tls-ca", theirs, *own),  # a scheduler that only says it is ours
+        ("--tls-ca", ours, "--tls-cert", ours, "--tls-key", key),  # a key of another certificate
+        ("--tls-ca", ours),
+        ("--tls-ca", tmp_path / "none.pem", *own),
+    ):
+        refused = run("render", project, "-o", tmp_path / "lit", "--cluster", address, *wrong)
+        assert refused.code == 1
+        assert "There is no cluster" in refused.err
+        assert not list(tmp_path.glob("lit/*.png"))

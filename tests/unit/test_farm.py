@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
@@ -17,9 +18,12 @@ from openjd.model import (
 from lampblack.drawing import parse_frames, save_picture
 from lampblack.drawing.sequence import frame_list
 from lampblack.errors import LampblackError
-from lampblack.farm.cluster import check_address, light_group
+from lampblack.farm.cluster import _take_in, check_address, light_group
 from lampblack.farm.tasks import MAX_TASKS, cut_into_tasks
+from lampblack.finals.png import save_png
+from lampblack.finals.render_shot import Outcome, RenderListener
 from lampblack.finals.settings import RenderSettings
+from lampblack.finals.targets import Targets
 from lampblack.shot import ShotFrame
 from support.command_line import Run
 from support.drawings import draw_ball
@@ -150,3 +154,53 @@ def test_a_cluster_that_is_not_there_is_told(
     told = run("render", tmp_path / "a.0001.png", "-o", tmp_path / "lit", *words)
     assert told.code == 1
     assert "no cluster" in told.err
+
+
+class Answer:
+    """What came back from a machine."""
+
+    def __init__(self, said: object) -> None:
+        self.said = said
+
+    def result(self) -> object:
+        if isinstance(self.said, Exception):
+            raise self.said
+        return self.said
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        [("1.png", "done", [])],
+        [("1.png", "done", []), ("7.png", "done", [])],
+        [("1.png", "done", []), ("1.png", "done", [])],
+        [("1.png", "done", []), ("2.png", "done", [])],  # its file is not there
+        [("1.png", "done", []), ("3.png", "kept", [])],  # its file is cut short
+        [("1.png", "perfect", []), ("2.png", "failed", ["why"])],
+        [("1.png", "done", ["why"]), ("2.png", "failed", ["why"])],
+        [("1.png", "done", []), ("2.png", "failed", [])],
+        [("1.png", "done", []), ("2.png", "failed", ["x"] * 9 + [7])],
+        "1.png", None, {"1.png": "done"}, 5, OSError("gone"),
+    ],
+)  # fmt: skip
+def test_a_machine_that_lies_is_not_believed(tmp_path: Path, said: Any) -> None:
+    save_png(tmp_path / "1.png", draw_ball(20), "now")
+    save_png(tmp_path / "3.png", draw_ball(20), "now")
+    (tmp_path / "3.png").write_bytes((tmp_path / "3.png").read_bytes()[:-9])
+    second = 3 if "3.png" in str(said) else 2
+    group = [ShotFrame(n, f"{n}.png", str(n)) for n in (1, second)]
+    outcome = Outcome()
+    _take_in(outcome, group, Answer(said), RenderListener(), Targets(str(tmp_path)))
+    assert [frame.number for frame, _ in outcome.failed] == [1, second]
+    assert not outcome.done
+
+
+def test_a_machine_that_says_what_is_so_is_believed(tmp_path: Path) -> None:
+    save_png(tmp_path / "1.png", draw_ball(20), "now")
+    group = [ShotFrame(n, f"{n}.png", str(n)) for n in (1, 2)]
+    outcome = Outcome()
+    said = [("2.png", "failed", ["What.", "Do.", "details"]), ("1.png", "done", [])]
+    _take_in(outcome, group, Answer(said), RenderListener(), Targets(str(tmp_path)))
+    assert outcome.done == [group[0]]
+    ((frame, error),) = outcome.failed
+    assert (frame, error.what, error.remedy) == (group[1], "What.", "Do.")

@@ -13,7 +13,7 @@ import secrets
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 from urllib.parse import urlsplit
 
 import msgspec
@@ -24,6 +24,7 @@ from ..errors import LampblackError, OutputError
 from ..finals.render_shot import Outcome, RenderListener, render_shot
 from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.settings import RenderSettings
+from ..finals.targets import Targets
 from ..pipeline import Pipeline
 from ..shot import ShotFrame, by_drawing
 
@@ -84,7 +85,7 @@ def light_on_cluster(
             for group in groups
         }
         for future in as_completed(futures):  # type: ignore[no-untyped-call]
-            _take_in(outcome, futures[future], future, listener)
+            _take_in(outcome, futures[future], future, listener, job.targets)
     return outcome
 
 
@@ -133,6 +134,9 @@ def light_group(
     return report
 
 
+Became = Literal["done", "kept", "unlit", "failed", "full"]
+"""What became of a frame; ``full``: nothing can be written any more."""
+
 _ONE_AT_A_TIME = threading.Lock()
 
 
@@ -154,23 +158,35 @@ def _warm_pipeline(options: PipelineOptions) -> Pipeline:
 
 
 def _take_in(
-    outcome: Outcome, group: list[ShotFrame], future: Any, listener: RenderListener
+    outcome: Outcome,
+    group: list[ShotFrame],
+    future: Any,
+    listener: RenderListener,
+    targets: Targets,
 ) -> None:
+    """Take in what a machine says of ``group``. Frames are believed when their files are there."""
     by_name = {frame.name: frame for frame in group}
     try:
-        report = future.result()
+        report = msgspec.convert(future.result(), list[tuple[str, Became, list[str]]])
+        if sorted(name for name, _, _ in report) != sorted(by_name):
+            raise ValueError("it speaks of other frames")
+        for name, became, words in report:
+            if became not in ("failed", "full") and not targets.are_whole(by_name[name]):
+                raise ValueError(f"the file of {name} is not there, or not whole")
+            if bool(words) != (became in ("failed", "full")):
+                raise ValueError("it contradicts itself")
     except Exception as error:  # whatever went wrong over there
         lost = LampblackError(
             "The cluster could not light this frame.",
             "Run it again; what was finished is kept.",
-            repr(error),
+            repr(error)[:400],
         )
         report = [(frame.name, "failed", [lost.what, lost.remedy, lost.details]) for frame in group]
     for name, became, words in report:
         frame = by_name[name]
         if words:
             kind = OutputError if became == "full" else LampblackError
-            failure = kind(*words)
+            failure = kind(*words[:3])
             outcome.failed.append((frame, failure))
             listener.on_frame(frame, failure, kept=False)
             continue

@@ -144,6 +144,10 @@ class Targets:
                     f"{path} is one of the inputs; it would be lost.", "Choose another output."
                 )
 
+    def are_whole(self, frame: ShotFrame) -> bool:
+        """Whether the files of ``frame`` are there and complete, whatever they were made from."""
+        return all(_STAMPS[path.suffix.lower()](path) for path in self.paths(frame))
+
     def holds(self, frame: ShotFrame, stamp: str) -> bool:
         """Whether the files of ``frame`` are up to date: complete, and with this ``stamp``."""
         return all(_STAMPS[path.suffix.lower()](path) == stamp for path in self.paths(frame))
