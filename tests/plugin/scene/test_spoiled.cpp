@@ -10,7 +10,7 @@
 #include <random>
 
 // Of keys that come twice in JSON, Qt 5.15 leaks the first one's object or array.
-extern "C" const char* __lsan_default_suppressions();
+extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions()
 {
     return "leak:libQt5Core.so";
