@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -33,17 +35,24 @@ def test_the_folders_of_ended_processes_are_removed(tmp_path: Path) -> None:
     assert (others[0] / "kept").exists(), "a link is not followed"
 
 
+@pytest.fixture
+def short_path() -> Iterator[Path]:
+    """A folder whose path leaves room for that of a socket."""
+    with TemporaryDirectory(prefix="l", dir="/tmp") as folder:
+        yield Path(folder)
+
+
 def test_a_killed_worker_leaves_no_socket_for_long(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    short_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(short_path))
     program = (
         "import os, signal; from lampblack.service.endpoint import private_endpoint\n"
         "with private_endpoint() as endpoint: os.kill(os.getpid(), signal.SIGKILL)"
     )
     subprocess.run([sys.executable, "-c", program], check=False)
-    (left,) = tmp_path.iterdir()
+    (left,) = short_path.iterdir()
     with private_endpoint() as endpoint:
         assert not left.exists()
-        assert endpoint.startswith(f"ipc://{tmp_path}/lampblack-{os.getpid()}-")
-    assert not list(tmp_path.iterdir())
+        assert endpoint.startswith(f"ipc://{short_path}/lampblack-{os.getpid()}-")
+    assert not list(short_path.iterdir())
