@@ -108,6 +108,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         quality=random.choice(get_args(QualityName)),
         depth_hints=random.choice(texts),
         frames=random.choice(texts),
+        sheet=random.choice(texts),
         format=random.choice(get_args(FileFormat)),
         mask=random.choice(texts),
         ink=random.choice(texts),

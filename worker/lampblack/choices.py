@@ -21,6 +21,12 @@ FrameLayers = Literal["all", "lit"]
 ApartKind = Literal["none", "ora", "png", "pencil2d", "exr"]
 """Kinds of files that a lit frame is taken apart into."""
 
+NormalsAxis = Literal["up", "down"]
+"""Where the green channel of a normal map points: up as in OpenGL, or down as in DirectX."""
+
+Engine = Literal["godot", "unity", "unreal"]
+"""Game engines whose habits files may follow."""
+
 FrontSide = Literal["left", "right", "joined"]
 """The side of a stroke that is in front, or none: the surface goes on across the stroke."""
 

@@ -17,8 +17,8 @@ from .outputs import check_suffix
 
 
 @with_settings(
-    *("input", "scene", "quality", "frames", "format", "apart", "character", "line", "background"),
-    *("layer_body", "camera", "steady", "mask", "ink"),
+    *("input", "scene", "quality", "sheet", "frames", "format", "apart", "character", "line"),
+    *("background", "layer_body", "camera", "steady", "mask", "ink"),
 )
 def job(
     settings: RenderSettings,

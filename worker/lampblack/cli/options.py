@@ -27,6 +27,11 @@ OPTIONS: dict[str, Any] = {
         metavar="DIR|PATTERN",
         help="Folder for the lit frames, or pattern for their names: lit.%04d.exr.",
     ),
+    "sheet": typer.Option(
+        "--sheet",
+        metavar="COLUMNSxROWS",
+        help="Cells of a sprite sheet, such as 8x4: each cell of the picture is a frame.",
+    ),
     "frame": typer.Option(
         "--frame",
         metavar="N",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -11,7 +10,7 @@ from ..errors import LampblackError, RenderError
 from ..finals.settings import RenderSettings
 from .console import EXIT_FAILED, EXIT_UNLIT, print_error, progress_bar, say
 from .options import OPTIONS, with_settings
-from .outputs import check_suffix, keep_inputs
+from .overviews import ContactSheet, Fps, Overviews, Preview, SpriteSheet
 
 if TYPE_CHECKING:
     from ..finals.render_shot import Outcome
@@ -22,14 +21,10 @@ if TYPE_CHECKING:
 @with_settings(*(name for name in OPTIONS if name not in ("input", "frame")))
 def render(
     settings: RenderSettings,
-    contact_sheet: Annotated[
-        Path | None,
-        typer.Option(
-            "--contact-sheet",
-            metavar="PNG",
-            help="Write a picture of up to 12 frames: drawings above, lit below.",
-        ),
-    ] = None,
+    contact_sheet: ContactSheet = None,
+    preview: Preview = None,
+    fps: Fps = None,
+    sprite_sheet: SpriteSheet = None,
     allow_blank: Annotated[
         bool, typer.Option("--allow-blank", help="Exit with 0 even if blank frames stayed unlit.")
     ] = False,
@@ -66,14 +61,15 @@ def render(
     """
     from ..cache import surface_cache
     from ..farm.cluster import Certificates, light_on_cluster
-    from ..finals.contact_sheet import save_contact_sheet
     from ..finals.render_shot import RenderListener, render_shot
     from ..finals.resolve import resolve_job
+    from ..finals.sheet import cells_of
     from ..pipeline import Pipeline
 
     job = resolve_job(settings)
-    if contact_sheet is not None:
-        _check_sheet(contact_sheet, job)
+    columns = 0 if settings.sheet is None else cells_of(settings.sheet)[0]
+    overviews = Overviews(contact_sheet, preview, fps, sprite_sheet, columns)
+    overviews.check(job)
     with progress_bar() as bar:
         task = bar.add_task("Lighting", total=len(job.frames))
 
@@ -94,20 +90,12 @@ def render(
         else:
             with Pipeline(surface_cache(), job.options) as pipeline:
                 outcome = render_shot(job, pipeline, listener=Report())
-    if contact_sheet is not None:
-        save_contact_sheet(contact_sheet, job, outcome.done)
+    overviews.save(job, outcome.done)
     _summarise(job, outcome)
     if outcome.failed:
         raise typer.Exit(EXIT_FAILED)
     if outcome.unlit and not allow_blank:
         raise typer.Exit(EXIT_UNLIT)
-
-
-def _check_sheet(sheet: Path, job: ResolvedJob) -> None:
-    check_suffix(sheet, ".png")
-    keep_inputs(sheet, job.sources)
-    if job.targets.kind != "png":
-        raise LampblackError("A contact sheet shows PNG frames only.", "Leave out --contact-sheet.")
 
 
 def _summarise(job: ResolvedJob, outcome: Outcome) -> None:

@@ -7,17 +7,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..choices import Engine, NormalsAxis
 from ..finals.settings import RenderSettings
 from .drawings import each_drawing, each_prepared
 from .options import with_settings
 from .outputs import check_suffix, keep_inputs
+from .overviews import SpriteSheet
 
 if TYPE_CHECKING:
     from ..finals.resolve import ResolvedShot
     from ..finals.targets import Targets
 
 
-@with_settings("inputs", "frames", "grids", "layer_body", "steady", "mask", "ink")
+@with_settings("inputs", "sheet", "frames", "grids", "layer_body", "steady", "mask", "ink")
 def normals(
     settings: RenderSettings,
     output: Annotated[
@@ -29,6 +31,21 @@ def normals(
             help="A .png or .npy file, a pattern (n.%04d.npy) or a folder.",
         ),
     ],
+    y: Annotated[
+        NormalsAxis | None,
+        typer.Option(
+            "--y", help="Where green points: up (OpenGL) or down (DirectX). Default: the engine's."
+        ),
+    ] = None,
+    engine: Annotated[
+        Engine | None,
+        typer.Option(
+            "--engine",
+            help="Game engine: its names in a folder (godot hero_n, unity hero_NormalMap, unreal "
+            "hero_N), its y (unreal: down), and flat normals around the character.",
+        ),
+    ] = None,
+    sprite_sheet: SpriteSheet = None,
 ) -> None:
     """Predict the normal maps of drawings.
 
@@ -42,12 +59,19 @@ def normals(
     from ..atomic import atomic_file
     from ..cache import surface_cache
     from ..choices import PipelineOptions
-    from ..drawing import save_picture
+    from ..drawing import load_picture, save_picture
     from ..finals.neighbours import NeighbourLoader
+    from ..finals.normal_map import engine_of, normal_map, pointing
+    from ..finals.sheet import cells_of, save_sheet
     from ..pipeline import Pipeline
     from ..shot import by_drawing
 
-    shot, targets = _resolve(settings, output, "png", "npy")
+    habits = engine_of(engine)
+    shot, targets = _resolve(settings, output, "png", "npy", ending=habits.ending)
+    if sprite_sheet is not None:
+        check_suffix(sprite_sheet, ".png")
+        keep_inputs(sprite_sheet, [*shot.sources, *map(targets.path, shot.frames)])
+        check_suffix(Path(f"frames.{targets.kind}"), ".png")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids)) as pipeline:
         around = NeighbourLoader(
             shot.shot, pipeline, shot.reach, choices=shot.overrides.layer_bodies
@@ -58,11 +82,15 @@ def normals(
             for frame in frames:
                 if targets.kind == "npy":
                     with atomic_file(targets.path(frame)) as file:
-                        np.save(file, found, allow_pickle=False)
+                        np.save(file, pointing(found, y or habits.y), allow_pickle=False)
                 else:
-                    colours = np.round((found * 0.5 + 0.5) * 255) * drawing.mask[..., None]
-                    picture = np.dstack([colours, drawing.mask * 255]).astype(np.uint8)
+                    picture = normal_map(found, drawing.mask, y or habits.y, flat=habits.flat)
                     save_picture(targets.path(frame), picture)
+    if sprite_sheet is not None:
+        columns = 0 if settings.sheet is None else cells_of(settings.sheet)[0]
+        paths = [targets.path(frame) for frame in shot.frames]
+        written = [load_picture(path) if path.exists() else None for path in paths]
+        save_sheet(sprite_sheet, written, columns)
 
 
 @with_settings(
@@ -128,7 +156,7 @@ def height(
     _write_heights(settings, output, "npy")
 
 
-@with_settings("inputs", "frames", "depth_hints", "layer_body", "steady", "mask", "ink")
+@with_settings("inputs", "sheet", "frames", "depth_hints", "layer_body", "steady", "mask", "ink")
 def depth(
     settings: RenderSettings,
     output: Annotated[
@@ -173,7 +201,9 @@ def _write_heights(settings: RenderSettings, output: str, *kinds: str) -> None:
                     save_picture(targets.path(frame), picture)
 
 
-def _resolve(settings: RenderSettings, output: str, *kinds: str) -> tuple[ResolvedShot, Targets]:
+def _resolve(
+    settings: RenderSettings, output: str, *kinds: str, ending: str = ""
+) -> tuple[ResolvedShot, Targets]:
     """The shot and its target files. Jobs that would lose a file are refused."""
     from ..finals.resolve import resolve_shot
     from ..finals.targets import Targets
@@ -184,6 +214,6 @@ def _resolve(settings: RenderSettings, output: str, *kinds: str) -> tuple[Resolv
     own = [Path(given) for given in (settings.mask, settings.ink) if given is not None]
     keep_inputs(path, [*settings.inputs, *own])
     shot = resolve_shot(settings)
-    targets = Targets(output, kinds=kinds)
+    targets = Targets(output, kinds=kinds, ending=ending)
     targets.prepare(shot.frames, [*shot.sources, *own])
     return shot, targets

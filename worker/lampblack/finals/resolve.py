@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..choices import PipelineOptions
-from ..drawing import find_frames, load_picture, parse_frames, select_frames
+from ..drawing import Frame, find_frames, load_picture, parse_frames, select_frames
 from ..errors import LampblackError
 from ..looks import find_style
 from ..normals.temporal.neighbours import REACH
@@ -16,10 +16,11 @@ from ..project.shot import ProjectShot
 from ..project.stack import roles_of
 from ..rigs import find_rig
 from ..scene import Scene
-from ..shot import Shot, ShotFrame
+from ..shot import Picture, Shot, ShotFrame
 from .pictures import PictureShot
 from .scene_overrides import SceneOverrides, read_depth_hints, read_scene
 from .settings import RenderSettings
+from .sheet import SheetShot, cells_of
 from .targets import Targets
 
 SIDECAR_SUFFIX = ".lampblack.json"
@@ -86,10 +87,10 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
         single = False  # a frame of a project may well be blank
     else:
         found = find_frames(settings.inputs)
-        single = len(found) == 1
+        single = len(found) == 1 and settings.sheet is None
         mask = None if settings.mask is None else load_picture(settings.mask)
         ink = None if settings.ink is None else load_picture(settings.ink)
-        shot = PictureShot(found, mask, ink)
+        shot = _picture_shot(settings, found, mask, ink)
         sources = [frame.path for frame in found]
     frames = _chosen(shot.frames, settings.frames)
     hints = settings.depth_hints
@@ -106,6 +107,20 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
     return ResolvedShot(shot, frames, overrides, sources, single, REACH if settings.steady else 0)
 
 
+def _picture_shot(
+    settings: RenderSettings, found: Sequence[Frame], mask: Picture | None, ink: Picture | None
+) -> PictureShot | SheetShot:
+    if settings.sheet is None:
+        return PictureShot(found, mask, ink)
+    cells = cells_of(settings.sheet)
+    if len(found) > 1:
+        raise LampblackError(
+            f"{len(found)} pictures were named, and --sheet cuts one.",
+            "Name one sheet, or leave out --sheet.",
+        )
+    return SheetShot(found[0].path, cells, mask, ink)
+
+
 def _sidecar(project: str) -> Scene | None:
     """The scene file of the Pencil2D plugin, next to ``project``."""
     path = Path(f"{project}{SIDECAR_SUFFIX}")
@@ -117,6 +132,8 @@ def _project_shot(settings: RenderSettings, scene: Scene | None) -> ProjectShot:
         raise LampblackError(
             "A project is rendered on its own.", "Name one project, or pictures only."
         )
+    if settings.sheet is not None:
+        raise LampblackError("A project is no sprite sheet.", "Leave out --sheet.")
     if settings.mask is not None or settings.ink is not None:
         raise LampblackError(
             "In a project, layers say what is character and what is line.",

@@ -33,6 +33,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         floor: canvas line of a floor, in place of the scene's floor.
         quality: preset, in place of the scene's.
         depth_hints: file of depth hints, in place of the scene's depth.
+        sheet: columns and rows of the one input, ``8x4``: its cells are the frames.
         frames: list such as ``1-20x2,25``; None is all.
         format: file format; None is that of ``output``, or PNG.
         apart: files of the layers that each frame is taken apart into.
@@ -56,6 +57,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     floor: float | None = None
     quality: QualityName | None = None
     depth_hints: str | None = None
+    sheet: str | None = None
     frames: str | None = None
     format: FileFormat | None = None
     apart: ApartKind = "none"

@@ -29,6 +29,7 @@ class Targets:
         kind: file format; None is that of the pattern's suffix, or the first of ``kinds``.
         kinds: allowed file formats, as suffixes.
         apart: kind of the files of layers of each frame.
+        ending: what names in a folder end with, before the suffix.
 
     Raises:
         LampblackError: the suffix is not in ``kinds``, or is not ``kind``, or does not fit
@@ -41,7 +42,9 @@ class Targets:
         kind: str | None = None,
         kinds: tuple[str, ...] = get_args(FileFormat),
         apart: ApartKind = "none",
+        ending: str = "",
     ) -> None:
+        self._ending = ending
         self._path = Path(output)
         number = numbered_names(self._path.name)
         suffix = self._path.suffix.lower().removeprefix(".")
@@ -76,7 +79,7 @@ class Targets:
     def path(self, frame: ShotFrame) -> Path:
         """The file of ``frame``."""
         if not self._named:
-            return self._path / Path(frame.name).with_suffix(f".{self.kind}")
+            return self._path / f"{Path(frame.name).stem}{self._ending}.{self.kind}"
         if self._number is None:
             return self._path
         assert frame.number is not None

@@ -57,6 +57,7 @@ class ProjectShot:
     ) -> None:
         self._camera = _choose(project, camera)
         self.canvas = Canvas(self._camera.width, self._camera.height)
+        self.fps = project.fps
         self._stack = stack_layers(project, roles)
         if layers == "lit":
             self._stack = replace(self._stack, below=(), above=())
