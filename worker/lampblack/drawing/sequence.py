@@ -16,6 +16,7 @@ from .numbering import is_pattern, number_in, numbered_names, series
 
 MAX_FRAMES = 100_000
 
+_PROJECTS = (".pclx", ".pcl", ".ora", ".psd", ".psb", ".kra")
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?:x(\d{1,9}))?)?")
 
 
@@ -61,7 +62,9 @@ def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
         for frame in _frames_of(Path(item)):
             frames.setdefault(frame.path, frame)
     if len(frames) > MAX_FRAMES:
-        raise DrawingError(f"{len(frames)} frames were named; {MAX_FRAMES} is the most.")
+        raise DrawingError(
+            f"{len(frames)} frames were named; {MAX_FRAMES} is the most.", "Name fewer at a time."
+        )
     return list(frames.values())
 
 
@@ -91,7 +94,9 @@ def parse_frames(text: str) -> list[int]:
             )
         span = range(first, last + 1, step)
         if len(span) + len(numbers) > MAX_FRAMES:
-            raise DrawingError(f"The list names more than {MAX_FRAMES} frames.")
+            raise DrawingError(
+                f"The list names more than {MAX_FRAMES} frames.", "Render it in parts."
+            )
         numbers.update(span)
     return sorted(numbers)
 
@@ -137,6 +142,11 @@ def _frames_of(path: Path) -> list[Frame]:
     if path.is_dir():
         frames = [Frame(number_in(file), file) for file in _pictures_in(path)]
         _tell_of_series(path, frames)
+        if not frames and (layered := _layered_in(path)):
+            raise DrawingError(
+                f"The folder {path} holds projects, but no pictures.",
+                f"Name one of the projects: {layered[0]}.",
+            )
         return _in_order(frames, f"The folder {path} holds no pictures.")
     if is_pattern(path.name) and not path.exists():
         return _matching(path)
@@ -208,6 +218,11 @@ def _pictures_in(folder: Path) -> list[Path]:
             stacklevel=2,
         )
     return [file for file in named if file.is_file()]
+
+
+def _layered_in(folder: Path) -> list[Path]:
+    """The projects in a folder, which are rendered one by one."""
+    return sorted(file for file in folder.iterdir() if file.suffix.lower() in _PROJECTS)
 
 
 def _in_order(frames: Sequence[Frame], nothing: str) -> list[Frame]:

@@ -92,7 +92,9 @@ def read_scene(path: Path) -> Scene:
         return decode_scene(read_bounded(path, MAX_JSON_BYTES))
     except OSError as error:
         raise SceneError(
-            f"The scene {path} cannot be read.", "Write one: lampblack scene.", str(error)
+            f"The scene {path} cannot be read.",
+            "Write one: lampblack scene INPUT -o FILE.json.",
+            str(error),
         ) from error
 
 
@@ -130,7 +132,9 @@ def parse_light(text: str) -> tuple[float, float, float]:
 def lights_at(texts: Sequence[str], canvas: Canvas) -> tuple[AreaLight, ...]:
     """A default light at each ``X,Y,Z``."""
     if len(texts) > MAX_LIGHTS:
-        raise SceneError(f"{len(texts)} lights were named; {MAX_LIGHTS} is the most.")
+        raise SceneError(
+            f"{len(texts)} lights were named; {MAX_LIGHTS} is the most.", "Leave some out."
+        )
     return tuple(default_light(canvas, *parse_light(text)) for text in texts)
 
 

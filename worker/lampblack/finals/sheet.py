@@ -129,7 +129,7 @@ def save_sheet(path: Path, pictures: Sequence[Picture | None], columns: int = 0)
     """
     sizes = [picture.shape[:2] for picture in pictures if picture is not None]
     if not sizes:
-        raise LampblackError("No frame is there to be put on a sheet.")
+        raise LampblackError("No frame is there to be put on a sheet.", "Leave out --sprite-sheet.")
     height, width = (max(size[axis] for size in sizes) for axis in (0, 1))
     columns = columns or math.ceil(math.sqrt(len(pictures) * height / width))
     columns = min(columns, len(pictures))

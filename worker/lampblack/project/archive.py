@@ -96,7 +96,10 @@ class Zipped:
         with understood(cut_short):
             self._zip = zipfile.ZipFile(path)
         if len(self._zip.namelist()) > MAX_ENTRIES:
-            raise ProjectError(f"{path} holds more than {MAX_ENTRIES} files.")
+            raise ProjectError(
+                f"{path} holds more than {MAX_ENTRIES} files.",
+                "Save it under another name in its own program.",
+            )
         self._names = frozenset(self._zip.namelist())
 
     def xml(self) -> bytes:
@@ -206,13 +209,15 @@ def _strays(name: str) -> ProjectError:
 
 def _missing(project: Path, name: str) -> ProjectError:
     return ProjectError(
-        f"{project.name} has no {name}.", "Restore the project from a backup, or redraw the frame."
+        f"{project.name} has no {name}.",
+        "Restore it from a backup, or draw what is missing again and save it.",
     )
 
 
 def _within(data: bytes, name: str, limit: int) -> bytes:
     if len(data) > limit:
         raise ProjectError(
-            f"{name} in the project is larger than {limit >> 20} MiB.", "Check the project."
+            f"{name} in the project is larger than {limit >> 20} MiB.",
+            "Make that drawing smaller, or split it.",
         )
     return data

@@ -13,6 +13,8 @@ from defusedxml.ElementTree import fromstring
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import LampblackWarning, ProjectError
 
+AGAIN = "Open it in its own program and save it again; if that fails, restore a backup."
+"""What to do with a file that is whole, but says something that makes no sense."""
 MAX_PLACE = 1_000_000
 
 
@@ -27,7 +29,7 @@ def sound_xml(xml: bytes, name: str) -> Element:
     except (ParseError, DefusedXmlException, ValueError, LookupError, RecursionError) as error:
         raise ProjectError(
             f"The description in {name} is not sound XML.",
-            "Save the project again, or restore a backup.",
+            AGAIN,
             str(error),
         ) from error
     return root
@@ -38,7 +40,8 @@ def check_size(width: int, height: int, subject: str) -> None:
     if not (0 < width <= MAX_SIDE and 0 < height <= MAX_SIDE and width * height <= MAX_PIXELS):
         raise ProjectError(
             f"{subject} is {width} x {height} pixels.",
-            f"At most {MAX_SIDE} a side and {MAX_PIXELS // 1_000_000} megapixels are lit.",
+            f"Give it a size of 1 to {MAX_SIDE} a side, and {MAX_PIXELS // 1_000_000} megapixels "
+            "at most.",
         )
 
 
@@ -85,5 +88,5 @@ def number(element: Element | None, name: str, default: float) -> float:
 def _nonsense(name: str, text: str) -> ProjectError:
     return ProjectError(
         f"The project says {name} = {text[:40]!r}, which makes no sense.",
-        "Save the project again, or restore a backup.",
+        AGAIN,
     )

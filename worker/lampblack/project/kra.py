@@ -91,11 +91,13 @@ def read_kra(path: Path) -> tuple[Project, Archive]:
     image = root.find("IMAGE")
     top = None if image is None else image.find("layers")
     if image is None or top is None:
-        raise ProjectError(f"{path.name} describes no layers.", "Save it again in Krita.")
+        raise ProjectError(
+            f"{path.name} describes no layers.", "Open it in Krita, and save it again."
+        )
     size = whole(image, "width", 0), whole(image, "height", 0)
     check_size(*size, path.name)
     if sum(1 for _ in image.iter("layer")) > MAX_LAYERS:
-        raise ProjectError(f"{path.name} has more than {MAX_LAYERS} layers.")
+        raise ProjectError(f"{path.name} has more than {MAX_LAYERS} layers.", "Merge some of them.")
     files = KraFile(archive, image.get("name", ""), size)
     reader = _Reader(path.name, files)
     layers = reader.layers(top) if _is_rgb8(image) else (_merged(path.name, files),)
@@ -106,7 +108,9 @@ def read_kra(path: Path) -> tuple[Project, Archive]:
         last = whole(image.find("animation/range"), "to", 0)
         length = max(1, last + 1, *(key.frame for layer in layers for key in layer.keys))
     if length > LONGEST:
-        raise ProjectError(f"{path.name} is {length} frames long; {LONGEST} is the most.")
+        raise ProjectError(
+            f"{path.name} is {length} frames long; {LONGEST} is the most.", "Cut it into shots."
+        )
     fps = whole(image.find("animation/framerate"), "value", 24)
     canvas = Camera("Canvas", *size, (CameraKey(1),))
     return Project(layers, (canvas,), length, max(1, fps)), files
@@ -159,7 +163,9 @@ class _Reader:
 
     def _siblings(self, layers: Element, place: _Place) -> Iterator[Layer]:
         if place.depth > MAX_DEPTH:
-            raise ProjectError(f"{self.name} has groups in groups, {MAX_DEPTH} deep.")
+            raise ProjectError(
+                f"{self.name} has groups in groups, {MAX_DEPTH} deep.", "Merge some of them."
+            )
         for element in reversed(layers.findall("layer")):
             yield from self._one(element, place)
 
@@ -217,7 +223,10 @@ class _Reader:
         keys: dict[int, Key] = {}
         for frame, file, at in drawn[:LONGEST]:
             if not 1 <= frame <= LONGEST:
-                raise ProjectError(f"{self.name} has a keyframe at {frame - 1}.")
+                raise ProjectError(
+                    f"{self.name} has a keyframe at {frame - 1}.",
+                    f"The last is {LONGEST - 1}; move it.",
+                )
             self.files.stored[file] = Stored((whole(at, "x", 0), whole(at, "y", 0)))
             keys[frame] = replace(still, frame=frame, file=file)
         return tuple(keys[frame] for frame in sorted(keys))

@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element
 
 from ..errors import ProjectError
 from .attributes import (
+    AGAIN,
     UNKNOWN_BLENDS,
     check_size,
     number,
@@ -66,11 +67,11 @@ def parse_stack(xml: bytes, name: str) -> Project:
     root = sound_xml(xml, name)
     stack = root.find("stack")
     if root.tag != "image" or stack is None:
-        raise ProjectError(f"{name} describes no layers.", "Save it again.")
+        raise ProjectError(f"{name} describes no layers.", AGAIN)
     width, height = whole(root, "w", 0), whole(root, "h", 0)
     check_size(width, height, name)
     if sum(1 for _ in root.iter("layer")) > MAX_LAYERS:
-        raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
+        raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.", "Merge some of them.")
     unknown = {e.get("name", "") for e in stack.iter() if _operation(e) not in OPERATIONS}
     tell_of_layers(unknown, name, UNKNOWN_BLENDS)
     # Keys are positioned relative to the middle of the canvas, as in Pencil2D.
@@ -95,7 +96,7 @@ def parse_stack(xml: bytes, name: str) -> Project:
 def _layers(stack: Element, place: _Place, name: str, numbers: Iterator[int]) -> Iterator[Layer]:
     """The layers, topmost first; ``numbers`` are for groups."""
     if place.depth > MAX_DEPTH:
-        raise ProjectError(f"{name} has groups in groups, {MAX_DEPTH} deep.")
+        raise ProjectError(f"{name} has groups in groups, {MAX_DEPTH} deep.", "Merge some of them.")
     for element in stack:
         opacity = min(1.0, max(0.0, number(element, "opacity", 1.0)))
         blend, clipped = OPERATIONS.get(_operation(element), ("normal", False))

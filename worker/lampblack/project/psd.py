@@ -126,7 +126,9 @@ class _Reader:
     def layers(self) -> tuple[Layer, ...]:
         """The layers that can be drawn, lowest first."""
         if sum(1 for _ in islice(self.psd.descendants(), MAX_LAYERS + 1)) > MAX_LAYERS:
-            raise ProjectError(f"{self.name} has more than {MAX_LAYERS} layers.")
+            raise ProjectError(
+                f"{self.name} has more than {MAX_LAYERS} layers.", "Merge some of them."
+            )
         found = tuple(self._siblings(self.psd, _Place()))
         tell_of_layers(self._unknown, self.name, UNKNOWN_BLENDS)
         tell_of_layers(
@@ -145,7 +147,9 @@ class _Reader:
 
     def _siblings(self, layers: Iterable[Stored], place: _Place) -> Iterator[Layer]:
         if len(place.groups) > MAX_DEPTH:
-            raise ProjectError(f"{self.name} has groups in groups, {MAX_DEPTH} deep.")
+            raise ProjectError(
+                f"{self.name} has groups in groups, {MAX_DEPTH} deep.", "Merge some of them."
+            )
         stacks: list[list[Stored]] = []
         for layer in layers:
             if layer.clipping and stacks:

@@ -68,9 +68,11 @@ def parse(xml: bytes, name: str) -> Project:
     root = sound_xml(xml, name)
     described = [element for top in root.iter("object") for element in top.findall("layer")]
     if root.tag not in ("document", "object") or not described:
-        raise ProjectError(f"{name} is no project with layers.", "Save it again in Pencil2D.")
+        raise ProjectError(
+            f"{name} is no project with layers.", "Open it in Pencil2D, and save it again."
+        )
     if len(described) > MAX_LAYERS:
-        raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.")
+        raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.", "Merge some of them.")
     layers = tuple(_layer(e, KINDS[e.get("type", "")]) for e in described if e.get("type") in KINDS)
     moving = [element for element in described if element.get("type") == CAMERA]
     between: Between = "parameters" if _is_new(root, moving) else "matrices"
@@ -80,7 +82,9 @@ def parse(xml: bytes, name: str) -> Project:
     length = max((key.frame for keys in keyed for key in keys), default=1)
     length = max(length, _marked_end(root))
     if length > LONGEST:
-        raise ProjectError(f"{name} is {length} frames long; {LONGEST} is the most.")
+        raise ProjectError(
+            f"{name} is {length} frames long; {LONGEST} is the most.", "Cut it into shots."
+        )
     return Project(layers, cameras, length, whole(root.find("projectdata/fps"), "value", 12))
 
 
@@ -134,7 +138,10 @@ def _camera(element: Element, between: Between) -> Camera:
             bend = -number(moved, "pathCPX", 0), -number(moved, "pathCPY", 0)
             key = replace(key, bend=bend)
         if abs(key.scale) < 1e-3:
-            raise ProjectError(f"The camera {name!r} shrinks frame {key.frame} to nothing.")
+            raise ProjectError(
+                f"The camera {name!r} shrinks frame {key.frame} to nothing.",
+                "Give its key there a larger scale, or delete the key.",
+            )
         if key.easing not in CURVES and key.easing != LINEAR:
             warnings.warn(
                 f"The camera {name!r} has an easing, number {key.easing}, which Lampblack does "
@@ -183,7 +190,9 @@ def _name(element: Element) -> str:
 
 def _bounded(elements: list[Element], name: str) -> Iterator[Element]:
     if len(elements) > MAX_KEYS:
-        raise ProjectError(f"The layer {name!r} has more than {MAX_KEYS} keyframes.")
+        raise ProjectError(
+            f"The layer {name!r} has more than {MAX_KEYS} keyframes.", "Cut the project into shots."
+        )
     return iter(elements)
 
 
