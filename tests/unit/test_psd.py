@@ -77,13 +77,15 @@ def ramp(side: int = 24) -> np.ndarray:
     return np.tile(np.linspace(0, 255, side).astype(np.uint8), (side, 1))
 
 
-def test_a_file_that_krita_wrote_looks_as_in_krita() -> None:
-    path = ROOT / "tests/data/layers/krita.psd"
+@pytest.mark.parametrize("name", ["krita.psd", "gimp.psd"])
+def test_a_file_looks_as_in_the_program_that_wrote_it(name: str) -> None:
+    path = ROOT / "tests/data/layers" / name
     stored = PSDImage.open(path).topil(apply_icc=False)
     assert stored is not None
     assert apart(unlit(path), np.asarray(stored.convert("RGBA"))).max() <= 2
     names = [layer.name for layer in read_project(path)[0].layers]
-    assert names[:4] == ["paper", "body", "shade", "arm"]
+    drawn = ["body", "shade", "arm"] if name == "krita.psd" else ["figure", "shade", "glow"]
+    assert names[:4] == ["paper", *drawn]
 
 
 @pytest.mark.parametrize("seed", range(8))
