@@ -1,6 +1,7 @@
 #include "tool/panel/borrowed_height.h"
 
 #include <QEvent>
+#include <QLayout>
 #include <QMainWindow>
 #include <QTimer>
 
@@ -182,8 +183,11 @@ void BorrowedHeight::resize(int Neighbour::*height)
         }
         window->resizeDocks(docks, heights, Qt::Vertical);
     };
+    // If several docks change at once, Qt sets their heights only the second time. The first is laid out
+    // before it is painted: the docks would not fill their column.
     apply();
-    // If several docks change at once, Qt sets their heights only the second time.
+    window->layout()->activate();
+    apply();
     QTimer::singleShot(0, window, apply);
 }
 

@@ -113,6 +113,24 @@ private Q_SLOTS:
         mWindow.show();
     }
 
+    /// Also on a machine that takes long from one turn of the event loop to the next.
+    void aColumnThatDocksDoNotFillIsNotSeen()
+    {
+        mWindow.resize(700, 600);
+        QCoreApplication::processEvents();
+        for (QDockWidget* dock : {mDocks[0], mDocks[2], mDocks[3]})
+            dock->widget()->setMinimumHeight(120);
+        QCoreApplication::processEvents();
+        BorrowedHeight height;
+        height.borrow(*mPage, 500);
+        QVERIFY2(mDocks[1]->geometry().bottom() > 500, "it is bare below the tabs");
+        height.giveBack();
+        QCoreApplication::processEvents();
+        for (QDockWidget* dock : {mDocks[0], mDocks[2], mDocks[3]})
+            dock->widget()->setMinimumHeight(0);
+        mWindow.resize(700, 760);
+    }
+
     void aFloatingDockIsLeftAlone()
     {
         mDocks[1]->setFloating(true);
