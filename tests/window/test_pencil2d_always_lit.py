@@ -14,23 +14,24 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from support.lamp import Canvas, keep, light_up, project_in, settled
 from support.registration import luminance
-from support.window import Pencil2D, wait_until
+from support.window import Pencil2D, SharedPencil2D, wait_until
 
 FUR = "#4f8fb3"
 WHILE_PLAIN = 0.4
 """Of the flat pixels of a plain drawing: more of them mean that it is not lit."""
 
 
-def plain_share(window: Pencil2D) -> float:
-    """The share of the canvas that has exactly the flat colours while the lamp is not in use."""
-    window.watch([FUR])
+def plain_share(window: Pencil2D, colour: str = FUR) -> float:
+    """The share of the canvas that has exactly the flat colour while the lamp is not in use."""
+    window.watch([colour])
 
     def in_sight() -> float:
-        looks = window.watch([FUR])  # the first may be of what was shown before
+        looks = window.watch([colour])  # the first may be of what was shown before
         return float(looks[-1][1]) if looks and looks[-1][1] > 0.02 else 0.0
 
     share = wait_until(in_sight, "the plain figure")
@@ -39,9 +40,9 @@ def plain_share(window: Pencil2D) -> float:
 
 
 @contextmanager
-def staying_lit(window: Pencil2D, plain: float) -> Iterator[None]:
+def staying_lit(window: Pencil2D, plain: float, colour: str = FUR) -> Iterator[None]:
     """No look at the canvas finds it plain."""
-    window.watch([FUR])
+    window.watch([colour])
     yield
     looks = window.watch([])
     assert looks
@@ -111,26 +112,65 @@ def test_selecting_and_deselecting(window: Pencil2D, plain: float) -> None:
     keep(window, "deselected")
 
 
+def name_the_file(window: Pencil2D, path: Path) -> None:
+    """Answer the dialog that asks where to save."""
+    dialog = wait_until(lambda: window.of_class("QFileDialog"), "the file dialog")
+    assert dialog["seen"]
+
+    def saved() -> bool:
+        """Keys may come before it has the focus, and it goes before the file is there."""
+        if window.of_class("QFileDialog"):
+            with suppress(AssertionError):  # it went in this moment
+                window.set("fileNameEdit", "text", str(path))
+                window.key("Return")
+        return path.exists()
+
+    wait_until(saved, "the file")
+    wait_until(lambda: not window.of_class("QFileDialog"), "the end of the dialog")
+
+
 def test_saving_under_another_name(window: Pencil2D, plain: float, tmp_path: Path) -> None:
     with staying_lit(window, plain):
         window.trigger("actionSave_as")
-        dialog = wait_until(lambda: window.of_class("QFileDialog"), "the file dialog")
-        assert dialog["seen"]
-        other = tmp_path / "other.pclx"
-
-        def saved() -> bool:
-            """Keys may come before it has the focus, and it goes before the file is there."""
-            if window.of_class("QFileDialog"):
-                with suppress(AssertionError):  # it went in this moment
-                    window.set("fileNameEdit", "text", str(other))
-                    window.key("Return")
-            return other.exists()
-
-        wait_until(saved, "the file")
-        wait_until(lambda: not window.of_class("QFileDialog"), "the end of the dialog")
+        name_the_file(window, tmp_path / "other.pclx")
         wait_until(lambda: is_ready(window), "the light", 30)
         settled(window)
     keep(window, "saved as")
+
+
+def paint_a_disc(window: Pencil2D) -> str:
+    """A line around the middle of the canvas, and colour in it; the colour."""
+    left, top, width, height = window.rect("ScribbleArea")
+    x, y = left + width / 2, top + height / 2
+    turns = np.linspace(0, 2.4 * np.pi, 50)
+    window.click("pencilButton")
+    for _ in window.drag([(x + 130 * np.cos(turn), y + 110 * np.sin(turn)) for turn in turns]):
+        pass
+    window.click("bucketButton")
+    window.set("colorSpecTabWidget", "currentIndex", 1)
+    window.set("redSpinBox", "value", 255)
+    window.click_at(x, y)
+    window.set("colorSpecTabWidget", "currentIndex", 0)
+    return "#ff0000"
+
+
+def test_a_new_project_and_its_first_save(
+    window: Pencil2D, plain: float, shared: SharedPencil2D, tmp_path: Path
+) -> None:
+    with staying_lit(window, plain):
+        window.trigger("actionNew")
+        wait_until(lambda: window.value("lampblack", "project") == "", "the new project")
+        wait_until(lambda: not shows_light(window), "an empty canvas")
+    red = paint_a_disc(window)
+    share = plain_share(window, red)
+    light_up(window)
+    with staying_lit(window, share, red):
+        window.trigger("actionSave")
+        name_the_file(window, tmp_path / "mine.pclx")
+        wait_until(lambda: is_ready(window), "the light", 30)
+        settled(window)
+        keep(window, "first save")
+    shared.close()  # Pencil2D calls a project modified that is opened after a new one
 
 
 def test_going_to_frames_never_seen(window: Pencil2D, plain: float) -> None:
