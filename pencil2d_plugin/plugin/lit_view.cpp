@@ -49,7 +49,7 @@ QSize deviceSize(const QTransform& imageToWidget, const QWidget& widget, const Q
 LitView::LitView(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
                  LampTool& tool, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mUnlit(unlit), mTool(tool),
-      mStandIns(host, feed, unlit, document), mPictures(MaxKiB)
+      mStandIns(host, worker, feed, unlit, document), mPictures(MaxKiB)
 {
     mRequestTimer.setSingleShot(true);
     mRequestTimer.setInterval(0);

@@ -11,14 +11,57 @@ namespace lampblack
 namespace
 {
 constexpr int MaxKiB = 128 * 1024;
+constexpr int MaxNormalsKiB = 32 * 1024;
+} // namespace
+
+StandIns::StandIns(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
+                   QObject* parent)
+    : QObject(parent), mHost(host), mWorker(worker), mFeed(feed), mUnlit(unlit), mDocument(document),
+      mKept(MaxKiB), mNormals(MaxNormalsKiB)
+{
+    const auto forget = [this]
+    {
+        mKept.clear();
+        mNormals.clear();
+        mAsked.clear();
+    };
+    connect(&feed, &FrameFeed::frameOutdated, this,
+            [this](int frame)
+            {
+                mKept.remove(frame);
+                mNormals.remove(frame);
+                mAsked.remove(frame);
+            });
+    connect(&host, &Host::projectOpened, this, forget);
+    connect(&host, &Host::layersChanged, this, forget);
+    connect(&document, &SceneDocument::sceneChanged, this,
+            [this, forget]
+            {
+                if (mDocument.scene().depth == mDepth)
+                    return;
+                mDepth = mDocument.scene().depth;
+                forget();
+            });
+    connectNormals();
 }
 
-StandIns::StandIns(Host& host, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document, QObject* parent)
-    : QObject(parent), mHost(host), mFeed(feed), mUnlit(unlit), mDocument(document), mKept(MaxKiB)
+void StandIns::connectNormals()
 {
-    connect(&feed, &FrameFeed::frameOutdated, this, [this](int frame) { mKept.remove(frame); });
-    connect(&host, &Host::projectOpened, this, [this] { mKept.clear(); });
-    connect(&host, &Host::layersChanged, this, [this] { mKept.clear(); });
+    // A drawing that is lit has its surface: the answer costs the worker next to nothing.
+    connect(&mWorker, &Worker::imageArrived, this,
+            [this](const PreviewImage& image)
+            {
+                if (image.show != Show::Lit || !image.converged || mAsked.contains(image.frame))
+                    return;
+                mAsked.insert(image.frame);
+                mWorker.requestNormals(image.frame);
+            });
+    connect(&mWorker, &Worker::normalsArrived, this,
+            [this](int frame, const QImage& picture)
+            {
+                mNormals.insert(frame, new QImage(picture), int(picture.sizeInBytes() / 1024) + 1);
+                mKept.remove(frame);
+            });
 }
 
 std::optional<StandIn> StandIns::current()
@@ -50,6 +93,9 @@ std::optional<StandIn> StandIns::current()
             return std::nullopt;
         made.source = *source;
         made.shape = inflateFigure(made.source.image);
+        const QImage* normals = exported.image.isNull() ? nullptr : mNormals.object(frame);
+        if (normals != nullptr)
+            takeNormals(made.shape, *normals);
     }
     made.scene = scene;
     made.standIn.isWhole = exported.image.isNull();

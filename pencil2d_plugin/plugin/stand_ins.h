@@ -9,6 +9,7 @@
 #include "worker/worker.h"
 
 #include <QCache>
+#include <QSet>
 
 #include <optional>
 
@@ -24,13 +25,14 @@ struct StandIn
 };
 
 /// Shades what a frame shows: its lit layers if they have been read, otherwise what the canvas shows at this
-/// moment. Shapes and pictures are kept while they fit. Takes some milliseconds, in the UI thread.
+/// moment. A drawing that was lit before has the normals of its real surface, others the guess at it. Shapes
+/// and pictures are kept while they fit. Takes some milliseconds, in the UI thread.
 class StandIns : public QObject
 {
     Q_OBJECT
 
 public:
-    StandIns(Host& host, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
+    StandIns(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
              QObject* parent = nullptr);
 
     /// For the current frame, under the scene as it is now. No value if it cannot be told what is drawn.
@@ -49,12 +51,17 @@ private:
     };
 
     std::optional<FrameExport> seenOnCanvas() const;
+    void connectNormals();
 
     Host& mHost;
+    Worker& mWorker;
     FrameFeed& mFeed;
     UnlitLayers& mUnlit;
     SceneDocument& mDocument;
-    QCache<int, Kept> mKept; ///< by frame, cost in KiB
+    QCache<int, Kept> mKept;      ///< by frame, cost in KiB
+    QCache<int, QImage> mNormals; ///< by frame, cost in KiB, see Worker::normalsArrived()
+    QSet<int> mAsked;             ///< frames whose normals are known or asked for
+    Depth mDepth;                 ///< under which they were
 };
 
 } // namespace lampblack

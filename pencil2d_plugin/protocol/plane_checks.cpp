@@ -12,7 +12,8 @@ bool rolesAllowed(const Message& message, const QVector<Plane>& planes)
     QVector<Role> roles;
     std::transform(planes.begin(), planes.end(), std::back_inserter(roles),
                    [](const Plane& plane) { return plane.role; });
-    if (std::holds_alternative<Image>(message) || std::holds_alternative<Rigs>(message))
+    if (std::holds_alternative<Image>(message) || std::holds_alternative<Rigs>(message) ||
+        std::holds_alternative<Normals>(message))
     {
         return roles == QVector<Role>{Role::Picture};
     }
@@ -69,6 +70,10 @@ QVector<Plane> planesOf(const Message& message)
     if (const auto* rigs = std::get_if<Rigs>(&message))
     {
         return rigs->planes;
+    }
+    if (const auto* normals = std::get_if<Normals>(&message))
+    {
+        return normals->planes;
     }
     const auto* image = std::get_if<Image>(&message);
     return image != nullptr ? image->planes : QVector<Plane>();

@@ -103,6 +103,9 @@ public:
     /// Ask for pictures of a frame's drawing, `side` pixels large, in the light of each rig of the worker.
     virtual void requestRigs(int frame, int side) = 0;
 
+    /// Ask for the normals of a frame's drawing, as soon as the worker has them.
+    virtual void requestNormals(int frame) = 0;
+
     /// Render frames ("1-20x2,25") into files such as /shots/a.%04d.png or .exr: of the drawings that were
     /// put, or, with a `project`, of that file. Files of a project that are up to date are kept. `apart` adds
     /// layers for compositing. Returns the job's number.
@@ -118,6 +121,9 @@ Q_SIGNALS:
     void frameNeeded(int frame);
     void paletteArrived(int frame, const QVector<lampblack::Swatch>& swatches);
     void overlapsArrived(int frame, const QVector<lampblack::Overlap>& overlaps); ///< longest first
+    /// `picture`, Format_RGBA8888_Premultiplied, is small and shows the whole drawing, opaque where the
+    /// character is. Its colour is (n + 1) / 2: x right, y *up*, z to the viewer.
+    void normalsArrived(int frame, const QImage& picture);
     void rigsArrived(int frame, const QVector<lampblack::RigSketch>& rigs);
     void framesLit(int lit,
                    int held); ///< number of frames lit under this scene, and of frames the worker has

@@ -90,7 +90,7 @@ void WorkerSession::dropFrame(int frame)
 {
     const bool known = mFrameStore.frames().contains(frame);
     mFrameStore.drop(frame);
-    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests, &mRigRequests})
+    for (QMap<int, quint64>* requests : questions())
     {
         requests->remove(frame);
     }
@@ -104,7 +104,7 @@ void WorkerSession::dropAllFrames()
 {
     const QList<int> frames = mFrameStore.frames().keys();
     mFrameStore.clear();
-    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests, &mRigRequests})
+    for (QMap<int, quint64>* requests : questions())
     {
         requests->clear();
     }
@@ -194,6 +194,17 @@ void WorkerSession::requestRigs(int frame, int side)
     mRigSide = qBound(LeastRigSide, side, MostRigSide);
     mRigRequests.insert(frame, 0);
     sendQuestions();
+}
+
+void WorkerSession::requestNormals(int frame)
+{
+    mNormalsRequests.insert(frame, 0);
+    sendQuestions();
+}
+
+std::array<QMap<int, quint64>*, 4> WorkerSession::questions()
+{
+    return {&mPaletteRequests, &mOverlapRequests, &mRigRequests, &mNormalsRequests};
 }
 
 quint64 WorkerSession::render(const QString& frames, const QString& output, Quality quality,
@@ -324,7 +335,8 @@ void WorkerSession::handleIncoming()
             [this, &incoming](const auto& message)
             {
                 using Kind = std::decay_t<decltype(message)>;
-                if constexpr (std::is_same_v<Kind, protocol::Image> || std::is_same_v<Kind, protocol::Rigs>)
+                if constexpr (std::is_same_v<Kind, protocol::Image> || std::is_same_v<Kind, protocol::Rigs> ||
+                              std::is_same_v<Kind, protocol::Normals>)
                 {
                     handle(message, incoming.picture);
                 }

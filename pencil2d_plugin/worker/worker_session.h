@@ -10,6 +10,7 @@
 
 #include <QSet>
 
+#include <array>
 #include <optional>
 
 namespace lampblack
@@ -43,6 +44,7 @@ public:
     void requestPalette(int frame) override;
     void requestOverlaps(int frame) override;
     void requestRigs(int frame, int side) override;
+    void requestNormals(int frame) override;
     quint64 render(const QString& frames, const QString& output, Quality quality, const QString& project = {},
                    ApartKind apart = ApartKind::None) override;
     void cancelRender(quint64 job) override;
@@ -82,6 +84,9 @@ private:
     void handle(const protocol::Palette& palette);
     void handle(const protocol::Overlaps& overlaps);
     void handle(const protocol::Rigs& rigs, const QImage& pictures);
+    void handle(const protocol::Normals& normals, const QImage& picture);
+    /// All that wait for an answer, by kind.
+    std::array<QMap<int, quint64>*, 4> questions();
     /// Whether this is the awaited answer about the current drawing. Asks again if the drawing has changed.
     bool isAnswer(QMap<int, quint64>& requests, int frame, quint64 request, const QByteArray& digest);
     void setTakesLayers(bool takes);
@@ -101,6 +106,7 @@ private:
     bool mTakesLayers = true; ///< the worker takes the layers of a drawing apart
     bool mTellsOverlaps = true;
     bool mSketchesRigs = true;
+    bool mTellsNormals = true;
     QSet<QByteArray> mNeeded; ///< digests whose pixels the worker waits for
     std::optional<Scene> mScene;
     QSet<quint64> mSceneRevisions; ///< revisions under which mScene was sent
@@ -111,6 +117,7 @@ private:
     QMap<int, quint64> mPaletteRequests; ///< request by frame, 0 while it is not sent
     QMap<int, quint64> mOverlapRequests; ///< as well
     QMap<int, quint64> mRigRequests;     ///< as well
+    QMap<int, quint64> mNormalsRequests; ///< as well
     int mRigSide = 0;                    ///< of the pictures that were asked for last
     RenderJobs mJobs;
 };

@@ -24,6 +24,7 @@ void WorkerSession::handle(const protocol::Welcome& welcome)
     constexpr int MinorWithOverlaps = 2;
     mTellsOverlaps = welcome.minor >= MinorWithOverlaps;
     mSketchesRigs = welcome.capabilities.contains(QStringLiteral("rigs"));
+    mTellsNormals = welcome.capabilities.contains(QStringLiteral("normals"));
     setTakesLayers(welcome.capabilities.contains(QStringLiteral("layers")));
     mGreeted = true;
     sendAll();
@@ -108,6 +109,14 @@ void WorkerSession::handle(const protocol::Rigs& rigs, const QImage& pictures)
         sketches.append({rigs.names[place], pictures.copy(0, place * side, side, side)});
     }
     Q_EMIT rigsArrived(rigs.frame, sketches);
+}
+
+void WorkerSession::handle(const protocol::Normals& normals, const QImage& picture)
+{
+    if (isAnswer(mNormalsRequests, normals.frame, normals.request, normals.digest))
+    {
+        Q_EMIT normalsArrived(normals.frame, picture);
+    }
 }
 
 bool WorkerSession::isAnswer(QMap<int, quint64>& requests, int frame, quint64 request,

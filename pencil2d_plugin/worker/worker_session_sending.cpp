@@ -32,7 +32,7 @@ void WorkerSession::sendAll()
     {
         mPreview->request = 0;
     }
-    for (QMap<int, quint64>* requests : {&mPaletteRequests, &mOverlapRequests, &mRigRequests})
+    for (QMap<int, quint64>* requests : questions())
     {
         for (quint64& request : *requests)
         {
@@ -127,6 +127,11 @@ void WorkerSession::sendQuestions()
     if (mTellsOverlaps)
     {
         send(mOverlapRequests, [this](int frame) { return protocol::GetOverlaps{mRequest, frame}; });
+    }
+    if (mTellsNormals && mScene)
+    {
+        constexpr int Side = 160; ///< that of the grid of instant shadings
+        send(mNormalsRequests, [this](int frame) { return protocol::GetNormals{mRequest, frame, Side}; });
     }
     if (mSketchesRigs && mScene)
     {

@@ -91,6 +91,7 @@ SAMPLES: dict[Sender, list[Tree]] = {
             "presets": False,
             "rigs": [RIG],
         },
+        {"type": "get_normals", "request": 8, "frame": 12, "side": 128},
         RENDER
         | {"quality": "low", "keep_finished": True, "project": "/shots/walk.pclx"}
         | {"apart": "ora"},
@@ -152,6 +153,13 @@ SAMPLES: dict[Sender, list[Tree]] = {
             "digest": DIGEST,
             "names": ["sunset"],
             "rigs": [RIG],
+            "planes": [PICTURE],
+        },
+        {
+            "type": "normals",
+            "request": 8,
+            "frame": 12,
+            "digest": DIGEST,
             "planes": [PICTURE],
         },
         {

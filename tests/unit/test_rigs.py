@@ -17,7 +17,7 @@ from lampblack.finals.settings import RenderSettings
 from lampblack.pipeline import Pipeline
 from lampblack.preview.rig_pictures import placed_presets, rig_pictures
 from lampblack.preview.sketch import SketchedSurface
-from lampblack.protocol import ErrorMessage, GetRigs, Rigs
+from lampblack.protocol import ErrorMessage, GetNormals, GetRigs, Normals, Rigs
 from lampblack.rigs import PRESETS, find_rig, preset, preset_name, rig_of, with_rig
 from lampblack.scene import (
     Ambient,
@@ -205,6 +205,24 @@ def test_pictures_follow_their_rigs_and_the_camera(pipeline: Pipeline) -> None:
     assert pictures[-1][48, 48, :3].max() < 10
     orange, blue = (pictures[PRESETS.index(name)].sum(axis=(0, 1)) for name in ("sunset", "moon"))
     assert orange[0] / orange[2] > 1.5 * blue[0] / blue[2]
+
+
+def test_a_client_gets_the_normals_of_a_drawing(tmp_path: Path) -> None:
+    stage = Stage(tmp_path)
+    stage.greet(ONE)
+    stage.set_scene(ONE, default_scene(64, 64))
+    digest = stage.announce(ONE, 1, draw_ball(64))
+    request = stage.next_request(ONE)
+    stage.handle(ONE, GetNormals(request=request, frame=1, side=32))
+    answer = stage.wait_for(ONE, Normals)
+    assert (answer.message.request, answer.message.digest) == (request, digest)
+    picture = answer.planes["picture"].astype(float)
+    assert picture.shape == (32, 32, 4)
+    assert not picture[0, 0].any()
+    assert picture[16, 16, 3] == 255
+    x, y, z = picture[16, 16, :3] / 127.5 - 1
+    assert z > 0.7
+    assert x**2 + y**2 + z**2 == pytest.approx(1, abs=0.1)
 
 
 def test_a_client_gets_rigs_that_it_can_use_and_their_pictures(tmp_path: Path) -> None:

@@ -159,6 +159,13 @@ template <class Fields> void describe(Fields& fields, GetRigs& value)
     fields.texts("rigs", value.rigs, 12, 16384, patterns().rigs, Need::Optional);
 }
 
+template <class Fields> void describe(Fields& fields, GetNormals& value)
+{
+    fields.integer("request", value.request, 1, MaxNumber);
+    fields.integer("frame", value.frame, 0, 999999);
+    fields.integer("side", value.side, 16, 512, Need::Optional);
+}
+
 template <class Fields> void describe(Fields& fields, Render& value)
 {
     fields.integer("request", value.request, 1, MaxNumber);
@@ -256,6 +263,14 @@ template <class Fields> void describe(Fields& fields, Rigs& value)
     fields.list("planes", value.planes, 1, Need::Optional);
 }
 
+template <class Fields> void describe(Fields& fields, Normals& value)
+{
+    fields.integer("request", value.request, 1, MaxNumber);
+    fields.integer("frame", value.frame, 0, 999999);
+    text(fields, "digest", value.digest, 0, 40, patterns().digest);
+    fields.list("planes", value.planes, 1, Need::Optional);
+}
+
 template <class Fields> void describe(Fields& fields, Progress& value)
 {
     fields.integer("request", value.request, 1, MaxNumber);
@@ -314,14 +329,15 @@ struct MessageType
 };
 
 /// In the order of Message's alternatives.
-constexpr std::array<MessageType, 23> MessageTypes = {
+constexpr std::array<MessageType, 25> MessageTypes = {
     {{"hello", true, false},       {"put_frame", true, false},    {"drop_frame", true, false},
      {"set_scene", true, false},   {"preview", true, false},      {"view", true, false},
      {"get_palette", true, false}, {"get_overlaps", true, false}, {"get_rigs", true, false},
-     {"render", true, false},      {"cancel", true, false},       {"bye", true, true},
-     {"welcome", false, true},     {"need_frame", false, true},   {"image", false, true},
-     {"palette", false, true},     {"overlaps", false, true},     {"rigs", false, true},
-     {"progress", false, true},    {"frame_done", false, true},   {"done", false, true},
-     {"status", false, true},      {"error", false, true}}};
+     {"get_normals", true, false}, {"render", true, false},       {"cancel", true, false},
+     {"bye", true, true},          {"welcome", false, true},      {"need_frame", false, true},
+     {"image", false, true},       {"palette", false, true},      {"overlaps", false, true},
+     {"rigs", false, true},        {"normals", false, true},      {"progress", false, true},
+     {"frame_done", false, true},  {"done", false, true},         {"status", false, true},
+     {"error", false, true}}};
 
 } // namespace lampblack::protocol

@@ -191,6 +191,14 @@ struct GetRigs
     QStringList rigs = {};
 };
 
+/// Request the normals of a frame's drawing; answered by normals. Since 1.3.
+struct GetNormals
+{
+    quint64 request = 1; ///< number of the request, chosen by the client; rises
+    int frame = 0;       ///< frame of the animation, in the drawing program's count, 0 to 999999
+    int side = 160;      ///< longer side of the picture, 16 to 512
+};
+
 /// Render frames into files, with the scene of this moment.
 struct Render
 {
@@ -308,6 +316,18 @@ struct Rigs
     QVector<Plane> planes = {}; ///< the plane that follows, 1 at most
 };
 
+/// The normals of a drawing, in the detail that is prepared at this moment. Since 1.3.
+///
+/// One plane: `picture` (rgba8_premultiplied) of the whole drawing, opaque in the character: its colour is (n
+/// + 1) / 2, x right, y up, z to the viewer.
+struct Normals
+{
+    quint64 request = 1;        ///< number of the request, chosen by the client; rises
+    int frame = 0;              ///< frame of the animation, in the drawing program's count, 0 to 999999
+    QByteArray digest = {};     ///< digest of the drawing
+    QVector<Plane> planes = {}; ///< the plane that follows, 1 at most
+};
+
 /// The progress of a job.
 struct Progress
 {
@@ -364,7 +384,7 @@ struct Error
 };
 
 using Message = std::variant<Hello, PutFrame, DropFrame, SetScene, Preview, View, GetPalette, GetOverlaps,
-                             GetRigs, Render, Cancel, Bye, Welcome, NeedFrame, Image, Palette, Overlaps, Rigs,
-                             Progress, FrameDone, Done, Status, Error>;
+                             GetRigs, GetNormals, Render, Cancel, Bye, Welcome, NeedFrame, Image, Palette,
+                             Overlaps, Rigs, Normals, Progress, FrameDone, Done, Status, Error>;
 
 } // namespace lampblack::protocol

@@ -260,4 +260,36 @@ InstantShape inflateFigure(const QImage& drawing)
     return shape;
 }
 
+void takeNormals(InstantShape& shape, const QImage& picture)
+{
+    if (picture.isNull() || shape.size.isEmpty())
+        return;
+    const QImage normals = picture.convertToFormat(QImage::Format_RGBA8888);
+    for (int y = 0; y < shape.size.height(); ++y)
+    {
+        const int row =
+            std::min(int((y + 0.5) * normals.height() / shape.size.height()), normals.height() - 1);
+        for (int x = 0; x < shape.size.width(); ++x)
+        {
+            const int column =
+                std::min(int((x + 0.5) * normals.width() / shape.size.width()), normals.width() - 1);
+            const Pixel pixel = pixelOf(normals, column, row);
+            const int at = y * shape.size.width() + x;
+            if (!isDrawn(pixel) || shape.figure[at] == 0)
+                continue;
+            const auto component = [pixel](int channel)
+            {
+                return float(pixel[channel]) / 127.5F - 1;
+            };
+            const float right = component(0);
+            const float up = component(1);
+            const float front = std::max(component(2), 0.02F);
+            const float length = std::sqrt(right * right + up * up + front * front);
+            shape.nx[at] = right / length;
+            shape.ny[at] = -up / length;
+            shape.nz[at] = front / length;
+        }
+    }
+}
+
 } // namespace lampblack

@@ -34,4 +34,8 @@ struct InstantShape
 /// half a ball. Where the image ends the surface goes on level.
 InstantShape inflateFigure(const QImage& drawing);
 
+/// Give the shape of a drawing the normals of its real surface: `picture` is as in Worker::normalsArrived().
+/// Elements where it has none keep theirs.
+void takeNormals(InstantShape& shape, const QImage& picture);
+
 } // namespace lampblack

@@ -1,4 +1,6 @@
 // The canvas is lit while the lamp is in use, by a picture of the worker or by what stands in for it.
+#include "plugin/stand_ins.h"
+#include "support/scenes.h"
 #include "support/studio_test.h"
 
 #include <QAbstractButton>
@@ -64,6 +66,46 @@ private Q_SLOTS:
             QTest::qWait(20);
         }
         QCOMPARE(mWorker->mPut, (QVector<int>{1, 2}));
+    }
+
+    void aDrawingThatWasLitIsShadedByItsRealSurface()
+    {
+        FakeWorker worker;
+        SceneDocument document;
+        document.reset(sceneWithLight(20, 150, 100));
+        FrameFeed feed(*mHost, worker, document);
+        UnlitLayers unlit(*mHost, feed, document);
+        StandIns standIns(*mHost, worker, feed, unlit, document);
+        feed.setEnabled(true);
+        const auto shaded = [&standIns]
+        {
+            return standIns.current()->picture.picture;
+        };
+        const auto left = [](const QImage& picture)
+        {
+            return picture.pixelColor(130 * picture.width() / 400, picture.height() / 2).lightness();
+        };
+        const QImage guess = shaded();
+        Q_EMIT worker.imageArrived(worker.pictureOf(1));
+        Q_EMIT worker.imageArrived(worker.pictureOf(1));
+        QCOMPARE(worker.mNormals, QVector<int>{1});
+        QImage turnedAway(16, 12, QImage::Format_RGBA8888_Premultiplied);
+        turnedAway.fill(QColor(255, 127, 127));
+        Q_EMIT worker.normalsArrived(1, turnedAway);
+        QVERIFY(left(shaded()) < left(guess) - 20);
+        Scene brighter = document.scene();
+        brighter.ambient.strength = 0.9;
+        document.edit(QString(), brighter);
+        QVERIFY2(left(shaded()) > left(guess) - 20, "under another light, by the same surface");
+        document.undoStack()->undo();
+        QVERIFY(left(shaded()) < left(guess) - 20);
+
+        // Another drawing is guessed again, until it was lit.
+        ++mStrokes;
+        Q_EMIT mHost->drawingChanged(1);
+        QVERIFY(left(shaded()) >= left(guess) - 5);
+        Q_EMIT worker.imageArrived(worker.pictureOf(1));
+        QCOMPARE(worker.mNormals, (QVector<int>{1, 1}));
     }
 
     void anotherProjectIsNotShownInTheLightOfTheLast()

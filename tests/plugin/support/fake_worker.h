@@ -64,6 +64,7 @@ public:
     void cancelPreview() override { ++mPreviewsCancelled; }
     void requestPalette(int frame) override { mPalettes.append(frame); }
     void requestOverlaps(int frame) override { mOverlaps.append(frame); }
+    void requestNormals(int frame) override { mNormals.append(frame); }
     void requestRigs(int frame, int side) override { mRigs.append({frame, side}); }
     quint64 render(const QString& frames, const QString& output, Quality quality, const QString& project,
                    ApartKind apart) override
@@ -120,6 +121,7 @@ public:
     int mPreviewsCancelled = 0;
     QVector<int> mPalettes;
     QVector<int> mOverlaps;         ///< frames whose overlaps were asked for
+    QVector<int> mNormals;          ///< frames whose normals were asked for
     QVector<QPair<int, int>> mRigs; ///< frames whose rigs were asked for, and the sides of their pictures
     QString mFrames;                ///< of the last job, as are the next four
     QString mOutput;

@@ -87,6 +87,28 @@ private Q_SLOTS:
         }
     }
 
+    void realNormalsTakeThePlaceOfTheGuess()
+    {
+        InstantShape shape = inflateFigure(disc());
+        const InstantShape guess = shape;
+        // The left half faces right and up.
+        QImage picture(40, 30, QImage::Format_RGBA8888_Premultiplied);
+        picture.fill(Qt::transparent);
+        const auto channel = [](double component)
+        {
+            return int(std::lround((component + 1) * 127.5));
+        };
+        QPainter(&picture).fillRect(0, 0, 20, 30, QColor(channel(0.6), channel(0.64), channel(0.48)));
+        takeNormals(shape, picture);
+        const int left = elementAt(shape, Middle.x() - 50, Middle.y());
+        const int right = elementAt(shape, Middle.x() + 50, Middle.y());
+        QVERIFY(std::abs(shape.nx[left] - 0.6F) < 0.01F);
+        QVERIFY2(std::abs(shape.ny[left] + 0.64F) < 0.01F, "y points down");
+        QVERIFY(std::abs(shape.nz[left] - 0.48F) < 0.01F);
+        QCOMPARE(shape.nx[right], guess.nx[right]);
+        QCOMPARE(shape.height, guess.height);
+    }
+
     void sideTowardsTheLightIsBrighter()
     {
         const Scene fromLeft = dark(20, 150, 200);

@@ -157,6 +157,10 @@ private:
         {
             rigs(header);
         }
+        else if (type == QLatin1String("get_normals"))
+        {
+            normals(header);
+        }
         else if (type == QLatin1String("render"))
         {
             render(header);
@@ -189,7 +193,7 @@ private:
             QStringLiteral(
                 R"("type":"welcome","minor":3,"session":"%1","worker_version":"fake","capabilities":[%2],"status_ms":%3)"),
             {QString::number(QCoreApplication::applicationPid()).rightJustified(32, QLatin1Char('0')),
-             mScript == "no_layers" ? QString() : QStringLiteral("\"layers\",\"rigs\""),
+             mScript == "no_layers" ? QString() : QStringLiteral("\"layers\",\"rigs\",\"normals\""),
              QString::number(StatusMs)});
         if (mScript == "babbles")
         {
@@ -277,6 +281,19 @@ private:
         }
         send(R"("type":"done","request":%1,"outcome":"finished","frames_done":2,"frames_total":2)",
              {request});
+    }
+
+    void normals(const QJsonObject& header)
+    {
+        const int frame = header.value(QLatin1String("frame")).toInt();
+        const QString body =
+            QStringLiteral(R"({"lampblack":1,"type":"normals","request":%1,"frame":%2,"digest":"%3",)"
+                           R"("planes":[{"role":"picture","format":"rgba8_premultiplied",)"
+                           R"("width":2,"height":1,"stride":8}]})")
+                .arg(number(header, "request"))
+                .arg(frame)
+                .arg(mShown.value(frame));
+        sendRaw({body.toLatin1(), QByteArray("\x80\x80\xff\xff\xff\x80\x80\xff")});
     }
 
     /// Two rigs: the picture of the first is of zeros, that of the second of ones.

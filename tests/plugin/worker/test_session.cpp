@@ -288,6 +288,20 @@ private Q_SLOTS:
         QCOMPARE(rigs[1].picture.constScanLine(0)[0], uchar(1));
     }
 
+    void normalsAreAnswered()
+    {
+        const auto session = open("good");
+        const QSignalSpy arrived(session.get(), &Worker::normalsArrived);
+        session->putFrame(1, sheet(Qt::red));
+        session->setScene(sceneLitFrom(1));
+        session->requestNormals(1);
+        QTRY_COMPARE(arrived.count(), 1);
+        QCOMPARE(arrived[0][0].toInt(), 1);
+        const auto picture = arrived[0][1].value<QImage>();
+        QCOMPARE(picture.size(), QSize(2, 1));
+        QCOMPARE(picture.pixelColor(1, 0), QColor(255, 128, 128));
+    }
+
     void aRenderIsTakenApart()
     {
         const auto session = open("good");

@@ -108,6 +108,17 @@ class SketchedSurface:
         return np.asarray(1 - ndimage.gaussian_filter(covered, 0.7), np.float32)
 
 
+def normals_picture(drawing: PreparedDrawing, side: int) -> NDArray[np.uint8]:
+    """(h, w, 4) uint8, its longer side ``side``: (n + 1) / 2 over the whole drawing, opaque in the
+    character and black elsewhere."""
+    scale = side / max(drawing.size)
+    size = max(1, round(drawing.size[0] * scale)), max(1, round(drawing.size[1] * scale))
+    surface = SketchedSurface.of(drawing, (0, 0, *drawing.size), size)
+    inside = surface.inside[..., None]
+    colour = np.rint((surface.normals + 1) * 127.5) * inside
+    return np.asarray(np.concatenate([colour, inside * 255.0], axis=2), np.uint8)
+
+
 def _taken(
     plane: NDArray[Sample], across: Floats, down: Floats, size: tuple[int, int]
 ) -> NDArray[Sample]:

@@ -19,6 +19,7 @@ from .frames import (
 from .job import Cancel, Done, FrameDone, Progress, Render
 from .limits import LIMITS, Limits
 from .messages import FromClient, FromWorker, Sender
+from .normals import GetNormals, Normals
 from .planes import Pixels, Plane, Role
 from .preview import Image, Preview, SetScene, View
 from .rigs import GetRigs, Rigs
@@ -40,6 +41,7 @@ __all__ = [
     "FrameDone",
     "FromClient",
     "FromWorker",
+    "GetNormals",
     "GetOverlaps",
     "GetPalette",
     "GetRigs",
@@ -48,6 +50,7 @@ __all__ = [
     "Limits",
     "Message",
     "NeedFrame",
+    "Normals",
     "Overlap",
     "OverlapPoint",
     "Overlaps",

@@ -19,6 +19,7 @@ from .frames import PutFrame
 from .job import Render
 from .limits import MAX_NUMBER, Limits
 from .messages import BY_SENDER, MESSAGES, Sender
+from .normals import Normals
 from .planes import FORMAT_OF, Pixels, Plane, Role
 from .preview import Image
 from .rigs import Rigs
@@ -34,6 +35,7 @@ _ROLES: dict[type[Message], tuple[tuple[Role, ...], ...]] = {
     ),
     Image: (("picture",),),
     Rigs: (("picture",),),
+    Normals: (("picture",),),
 }
 _BRACKET_OR_STRING = re.compile(rb'[\[{]|[\]}]|"(?:[^"\\]|\\.)*+"?', re.DOTALL)
 

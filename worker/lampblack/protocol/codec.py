@@ -14,6 +14,7 @@ from .fields import Message
 from .frames import PutFrame
 from .limits import LIMITS, MAX_NUMBER, Limits
 from .messages import MESSAGES, Sender
+from .normals import Normals
 from .planes import Pixels, Plane, Role, plane_of, view_pixels
 from .preview import Image
 from .rigs import Rigs
@@ -120,7 +121,7 @@ def encode(
     named = [*(planes or {}).items(), *(("layer", pixels) for pixels in layers)]
     arrays = [(role, np.ascontiguousarray(pixels)) for role, pixels in named]
     specs = tuple(plane_of(role, pixels) for role, pixels in arrays)
-    if isinstance(message, PutFrame | Image | Rigs):
+    if isinstance(message, PutFrame | Image | Rigs | Normals):
         message = msgspec.structs.replace(message, planes=specs)
     elif specs:
         raise ValueError(f"{type(message).__name__} carries no planes")

@@ -17,6 +17,7 @@ from .frames import (
     PutFrame,
 )
 from .job import Cancel, Done, FrameDone, Progress, Render
+from .normals import GetNormals, Normals
 from .preview import Image, Preview, SetScene, View
 from .rigs import GetRigs, Rigs
 from .session import Bye, ErrorMessage, Hello, Status, Welcome
@@ -33,6 +34,7 @@ FromClient = (
     | GetPalette
     | GetOverlaps
     | GetRigs
+    | GetNormals
     | Render
     | Cancel
     | Bye
@@ -44,6 +46,7 @@ FromWorker = (
     | Palette
     | Overlaps
     | Rigs
+    | Normals
     | Progress
     | FrameDone
     | Done

@@ -15,6 +15,7 @@ from ..protocol import (
     Cancel,
     DropFrame,
     ErrorCode,
+    GetNormals,
     GetOverlaps,
     GetPalette,
     GetRigs,
@@ -65,7 +66,7 @@ def _hello(service: Service, identity: bytes, message: Hello) -> None:
             minor=MINOR,
             session=session.name,
             worker_version=__version__,
-            capabilities=("layers", "apart", "rigs"),
+            capabilities=("layers", "apart", "rigs", "normals"),
         ),
     )
     service.hurry_status()
@@ -138,7 +139,7 @@ def _ask(service: Service, session: Session, message: Question, received: Receiv
             session,
             error_message(ErrorCode.UNKNOWN_FRAME, request=message.request, frame=message.frame),
         )
-    elif isinstance(message, GetRigs) and session.scene is None:
+    elif isinstance(message, GetRigs | GetNormals) and session.scene is None:
         service.send(session, error_message(ErrorCode.NO_SCENE, request=message.request))
     else:
         session.questions = [*session.questions[-255:], message]
@@ -186,6 +187,7 @@ _HANDLERS: dict[type[Message], Callable[[Service, Session, Any, Received], None]
     GetPalette: _ask,
     GetOverlaps: _ask,
     GetRigs: _ask,
+    GetNormals: _ask,
     Render: _render,
     Cancel: _cancel,
     Bye: _bye,

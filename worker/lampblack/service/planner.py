@@ -16,6 +16,7 @@ from ..preview.shape import DrawingShape
 from ..preview.state import DrawingKey
 from ..protocol import (
     ErrorCode,
+    GetNormals,
     GetOverlaps,
     GetPalette,
     GetRigs,
@@ -44,7 +45,7 @@ class Planner:
     Args:
         sessions: all sessions by identity; shared with the owner.
         send: queues a message for a session.
-        sketch: answers a request for rigs, some time later.
+        sketch: answers a request for rigs or normals, some time later.
     """
 
     state: PreviewState
@@ -171,7 +172,7 @@ class Planner:
                 about = question.request, question.frame
                 self.send(session, fault_message(failure, request=about[0], frame=about[1]))
                 continue
-            if isinstance(question, GetRigs):
+            if isinstance(question, GetRigs | GetNormals):
                 if not self._sketch(session, question, shape):
                     session.questions.append(question)
                 continue
@@ -185,8 +186,10 @@ class Planner:
             else:
                 self.send(session, answer)
 
-    def _sketch(self, session: Session, question: GetRigs, shape: DrawingShape) -> bool:
-        """Have rigs sketched; False while the drawing is not prepared in any detail."""
+    def _sketch(
+        self, session: Session, question: GetRigs | GetNormals, shape: DrawingShape
+    ) -> bool:
+        """Have rigs or normals drawn; False while the drawing is not prepared in any detail."""
         drawing = self.state.drawing(shape)
         if drawing is None or session.scene is None:
             return False

@@ -1,4 +1,4 @@
-"""A thread that answers requests for rigs with pictures of them."""
+"""A thread that answers requests for rigs and normals with pictures of them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,17 @@ from ..errors import SceneError
 from ..lasting import lasting_thread
 from ..prepared import PreparedDrawing
 from ..preview.rig_pictures import placed, placed_presets, rig_pictures
-from ..protocol import ErrorCode, GetRigs, Pixels, Rigs, Role, error_message
+from ..preview.sketch import normals_picture
+from ..protocol import (
+    ErrorCode,
+    GetNormals,
+    GetRigs,
+    Normals,
+    Pixels,
+    Rigs,
+    Role,
+    error_message,
+)
 from ..protocol.fields import Message
 from ..protocol.rigs import MAX_RIGS
 from ..rigs import PRESETS
@@ -27,7 +37,7 @@ class RigQuestion:
     """A request of the session ``session``, with the drawing that its frame shows."""
 
     session: str
-    message: GetRigs
+    message: GetRigs | GetNormals
     digest: str
     drawing: PreparedDrawing
     scene: Scene
@@ -93,13 +103,19 @@ class RigSketches:
                 self.deliver(question.session, answer, {"picture": pictures})
 
 
-def answered(question: RigQuestion) -> tuple[Rigs, Pixels]:
+def answered(question: RigQuestion) -> tuple[Rigs | Normals, Pixels]:
     """The answer to ``question``, and its picture.
 
     Raises:
         SceneError: one of the client's rigs cannot be used.
     """
     message, scene = question.message, question.scene
+    if isinstance(message, GetNormals):
+        about = message.request, message.frame
+        return (
+            Normals(request=about[0], frame=about[1], digest=question.digest),
+            normals_picture(question.drawing, message.side),
+        )
     own = [placed(decode_rig(text.encode()), scene) for text in message.rigs]
     names: list[str] = []
     rigs: list[Rig] = []

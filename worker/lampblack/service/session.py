@@ -11,12 +11,12 @@ from ..hints import hint_frames
 from ..pins import pins_of
 from ..preview import Viewport, ViewRequest
 from ..preview.shape import DrawingShape, HintSource, PinSource
-from ..protocol import ErrorCode, GetOverlaps, GetPalette, GetRigs, error_message
+from ..protocol import ErrorCode, GetNormals, GetOverlaps, GetPalette, GetRigs, error_message
 from ..protocol.fields import Message
 from ..scene import Depth, Scene
 from ..timeline import is_keyed, scene_at
 
-Question = GetPalette | GetOverlaps | GetRigs
+Question = GetPalette | GetOverlaps | GetRigs | GetNormals
 
 
 @dataclass(frozen=True)
