@@ -9,30 +9,14 @@ namespace
 constexpr int MaxKeys = 1000;
 constexpr int MaxSteps = 10000;
 
-QTransform between(const QTransform& a, const QTransform& b, double t)
-{
-    const auto mix = [t](double from, double to)
-    {
-        return from + (to - from) * t;
-    };
-    return QTransform(mix(a.m11(), b.m11()), mix(a.m12(), b.m12()), mix(a.m21(), b.m21()),
-                      mix(a.m22(), b.m22()), mix(a.dx(), b.dx()), mix(a.dy(), b.dy()));
-}
-
 } // namespace
 
-QTransform cameraAt(const CameraKeys& keys, int frame)
+QTransform cameraAt(const CameraPath& path, int frame)
 {
-    if (keys.isEmpty())
+    if (path.isEmpty())
         return QTransform();
-    const auto next = keys.upperBound(frame);
-    if (next == keys.begin())
-        return keys.first();
-    const auto before = std::prev(next);
-    if (next == keys.end())
-        return before.value();
-    return between(before.value(), next.value(),
-                   double(frame - before.key()) / double(next.key() - before.key()));
+    const auto next = path.upperBound(frame);
+    return next == path.begin() ? path.first() : std::prev(next).value();
 }
 
 QPointF originIn(const QSize& size)
@@ -47,8 +31,8 @@ QTransform canvasToImage(const QTransform& view, const QSize& size)
            QTransform::fromTranslate(origin.x(), origin.y());
 }
 
-std::optional<CameraKeys> readCamera(const Parts& parts, const LayerRows& rows, ViewReader* view, int row,
-                                     const std::function<int()>& currentFrame)
+std::optional<CameraPath> readCamera(const Parts& parts, const LayerRows& rows, int row,
+                                     const CameraReader& read, const std::function<int()>& currentFrame)
 {
     QAction* nextKey = parts.action("actionNext_KeyFrame");
     QAction* previousKey = parts.action("actionPrev_KeyFrame");
@@ -62,31 +46,42 @@ std::optional<CameraKeys> readCamera(const Parts& parts, const LayerRows& rows, 
     const int frameBefore = currentFrame();
     rows.select(row);
 
-    // At the last key the frame does not change any more.
+    // At the first and the last key the frame does not change any more.
     const auto step = [&currentFrame](QAction* action)
     {
         const int from = currentFrame();
         action->trigger();
         return currentFrame() != from;
     };
-    CameraKeys keys;
-    bool whole = true;
-    for (int i = 0; i < MaxKeys && step(previousKey); ++i)
+    const auto goToEnd = [&step](QAction* action)
     {
-    }
+        for (int i = 0; i < MaxKeys && step(action); ++i)
+        {
+        }
+    };
+    const auto goTo = [&](int frame)
+    {
+        for (int i = 0; i < MaxSteps && currentFrame() != frame; ++i)
+            (currentFrame() < frame ? next : previous)->trigger();
+    };
+    goToEnd(previousKey);
+    goToEnd(nextKey);
+    const int last = currentFrame();
+    goToEnd(previousKey);
+    CameraPath path;
+    bool whole = true;
     do
     {
-        const auto matrices = view->read();
-        whole = whole && matrices.has_value();
-        if (matrices)
-            keys.insert(currentFrame(), matrices->view);
-    } while (keys.size() < MaxKeys && step(nextKey));
+        const std::optional<QTransform> view = read();
+        whole = view.has_value();
+        if (whole && (path.isEmpty() || !areNear(path.last(), *view)))
+            path.insert(currentFrame(), *view);
+    } while (whole && currentFrame() < last && step(next));
 
-    for (int i = 0; i < MaxSteps && currentFrame() != frameBefore; ++i)
-        (currentFrame() < frameBefore ? next : previous)->trigger();
+    goTo(frameBefore);
     if (layerBefore >= 0)
         rows.select(layerBefore);
-    return whole ? std::optional<CameraKeys>(keys) : std::nullopt;
+    return whole ? std::optional<CameraPath>(path) : std::nullopt;
 }
 
 } // namespace lampblack

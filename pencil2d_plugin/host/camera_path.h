@@ -11,13 +11,12 @@
 namespace lampblack
 {
 
-/// The key frames of a camera: its view (Pencil2D's canvas to picture, both with origins at the centre) by
-/// frame.
-using CameraKeys = QMap<int, QTransform>;
+/// The view of a camera (Pencil2D's canvas to picture, both with origins at the centre) by frame: at its
+/// first key, and at each frame after it at which the view is another one, up to the last key.
+using CameraPath = QMap<int, QTransform>;
 
-/// The view at a frame. Before the first and after the last key it is constant. Between two keys the elements
-/// of the matrix are interpolated linearly, as in Pencil2D 0.6.
-QTransform cameraAt(const CameraKeys& keys, int frame);
+/// The view at a frame. Before the first frame of the path it is that of the first.
+QTransform cameraAt(const CameraPath& path, int frame);
 
 /// Pencil2D's origin in an exported picture of this size: the centre, rounded down to whole pixels.
 QPointF originIn(const QSize& size);
@@ -25,9 +24,13 @@ QPointF originIn(const QSize& size);
 /// Transforms canvas coordinates to an exported picture of this size under this view.
 QTransform canvasToImage(const QTransform& view, const QSize& size);
 
-/// Read the key frames of the camera layer in `row`, by going to each of them. The current frame and layer
-/// are restored. No value on failure, after which the current frame may be another one.
-std::optional<CameraKeys> readCamera(const Parts& parts, const LayerRows& rows, ViewReader* view, int row,
-                                     const std::function<int()>& currentFrame);
+/// The view of the camera whose layer is the current one, at the current frame.
+using CameraReader = std::function<std::optional<QTransform>()>;
+
+/// Read the path of the camera layer in `row`, by going to each frame from its first key to its last: how it
+/// moves between two keys is Pencil2D's own. The current frame and layer are restored. No value on failure,
+/// after which the current frame may be another one.
+std::optional<CameraPath> readCamera(const Parts& parts, const LayerRows& rows, int row,
+                                     const CameraReader& read, const std::function<int()>& currentFrame);
 
 } // namespace lampblack

@@ -1,6 +1,10 @@
 #include "host/drawing_watch.h"
 
+#include <QApplication>
+
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace lampblack
 {
@@ -10,10 +14,12 @@ namespace
 
 constexpr int DebounceMs = 100;
 
+/// Some are of Pencil2D 0.6 or of 0.7 only.
 constexpr const char* EditActions[] = {"actionUndo",
                                        "actionRedo",
                                        "actionCut",
                                        "actionPaste",
+                                       "actionPaste_Previous",
                                        "actionCrop",
                                        "actionCrop_To_Selection",
                                        "actionClear",
@@ -24,21 +30,25 @@ constexpr const char* EditActions[] = {"actionUndo",
                                        "actionDuplicate_Frame",
                                        "actionRemove_Frame",
                                        "actionExtend_Frame",
-                                       "actionMove_Frame_Forward",
-                                       "actionMove_Frame_Backward",
                                        "actionImport_Image",
                                        "actionImport_ImageSeq",
                                        "actionImport_ImageSeqNum",
                                        "actionImport_MovieVideo",
                                        "actionImport_Gif",
+                                       "actionImport_AnimatedImage",
                                        "actionImportLayers_from_pclx",
                                        "actionPegbarAlignment",
                                        "actionDeselect_All",
                                        "actionChangeLineColorCurrent_keyframe",
                                        "actionChangeLineColorAll_keyframes_on_layer"};
 
-constexpr const char* EditorSignals[] = {"frameModified(int)", "framesModified()", "objectChanged()",
-                                         "updateBackup()"};
+/// They move drawings in time.
+constexpr const char* TimingActions[] = {
+    "actionMove_Frame_Forward",        "actionMove_Frame_Backward", "actionRemove_Frames",
+    "actionReverse_Frames_Order",      "actionAdd_Frame_Exposure",  "actionSubtract_Frame_Exposure",
+    "actionReposition_Selected_Frames"};
+
+constexpr const char* EditorSignals[] = {"frameModified(int)", "objectChanged()", "updateBackup()"};
 
 /// moc's "2" marks a signal, as SIGNAL() writes it.
 QByteArray signalCode(const char* signature)
@@ -60,10 +70,12 @@ DrawingWatch::DrawingWatch(const Parts& parts, Idleness* idleness, QObject* pare
             [this]
             {
                 // Pencil2D emits its signal at the start of a stroke.
-                if (mIdleness->areHandsOff())
-                    Q_EMIT changed();
-                else
+                if (!mIdleness->areHandsOff())
                     mChangeTimer.start();
+                else if (std::exchange(mManyChanged, false))
+                    Q_EMIT manyChanged();
+                else
+                    Q_EMIT changed();
             });
     connect(&mLayersTimer, &QTimer::timeout, this, &DrawingWatch::layersMaybeChanged);
     connect(idleness, &Idleness::released, this, &DrawingWatch::onReleased);
@@ -73,6 +85,13 @@ DrawingWatch::DrawingWatch(const Parts& parts, Idleness* idleness, QObject* pare
         if (QAction* action = parts.action(name))
             connect(action, &QAction::triggered, this, &DrawingWatch::onEdited);
     }
+    for (const char* name : TimingActions)
+    {
+        if (QAction* action = parts.action(name))
+            connect(action, &QAction::triggered, this, &DrawingWatch::onManyEdited);
+    }
+    if (has(parts.editor, "framesModified()"))
+        connect(parts.editor, SIGNAL(framesModified()), this, SLOT(onFramesModified()));
     for (const char* signature : EditorSignals)
     {
         if (has(parts.editor, signature))
@@ -93,6 +112,25 @@ void DrawingWatch::onEdited()
 {
     if (!mIdleness->isWorking())
         mChangeTimer.start();
+}
+
+void DrawingWatch::onManyEdited()
+{
+    if (mIdleness->isWorking())
+        return;
+    mManyChanged = true;
+    mChangeTimer.start();
+}
+
+void DrawingWatch::onFramesModified()
+{
+    // The dialog of the opacity stays open beside the window, and sets that of a key, of several or of a
+    // layer.
+    const QWidgetList windows = QApplication::topLevelWidgets();
+    const bool isOpacity = std::any_of(
+        windows.begin(), windows.end(),
+        [](const QWidget* widget) { return isClass(widget, "LayerOpacityDialog") && widget->isVisible(); });
+    isOpacity ? onManyEdited() : onEdited();
 }
 
 void DrawingWatch::onLayersEdited()

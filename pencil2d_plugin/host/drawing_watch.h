@@ -21,11 +21,14 @@ public:
 
 Q_SIGNALS:
     void changed();            ///< emitted once, shortly after the last of several changes
+    void manyChanged();        ///< emitted instead: drawings of other frames may have changed too
     void layersMaybeChanged(); ///< layers may have been added, removed, moved or renamed
     void eyeMaybeChanged();    ///< a layer may have been shown or hidden
 
 private Q_SLOTS:
     void onEdited();
+    void onManyEdited();
+    void onFramesModified();
     void onLayersEdited();
 
 private:
@@ -38,6 +41,7 @@ private:
     QTimer mChangeTimer;
     QTimer mLayersTimer;
     bool mToolActive = false;
+    bool mManyChanged = false;
 };
 
 } // namespace lampblack

@@ -18,6 +18,8 @@
 #include <QVector>
 #include <QWidget>
 
+QT_FORWARD_DECLARE_CLASS(QPainter)
+
 #include <functional>
 #include <optional>
 
@@ -83,14 +85,16 @@ public:
     // Places
     virtual QWidget* window() const = 0;
     virtual QWidget* canvas() const = 0;
-    /// Add a tool button, exclusive with the other tools. The action is checkable, and checked while the tool
-    /// is in use. Its icon, tooltip (with shortcut) and status tip are shown.
+    /// Add a tool, exclusive with the other tools, to their menu and, where there is Ability::Palette, as a
+    /// button. The action is checkable, and checked while the tool is in use. Its icon, tooltip (with
+    /// shortcut) and status tip are shown.
     virtual void addTool(QAction* tool) = 0;
     /// Show `panel` instead of the tool options while the tool is in use.
     virtual void setToolPanel(QWidget* panel) = 0;
     virtual void addDock(QDockWidget* dock) = 0;
     /// Add an entry to a submenu "Light" at the end of the Animation menu.
     virtual void addLightAction(QAction* action) = 0;
+    /// Without a time, `text` stays until the next one, and is shown again after any other message.
     virtual void showStatus(const QString& text, int milliseconds = 0) = 0;
     /// Add a widget at the right end of the status bar.
     virtual void addStatusWidget(QWidget* widget) = 0;
@@ -105,6 +109,9 @@ public:
     virtual std::optional<QTransform> canvasToWidget() const = 0;
     virtual QSize canvasSize() const = 0; ///< size of the exported frames, pixels
     virtual QColor paper() const = 0;     ///< colour under transparent pixels
+    /// Paint the guides of the program (thirds, safe areas) above what covers its canvas, in widget
+    /// coordinates. Where they are to be seen already, they vanish.
+    virtual void paintGuides(QPainter* painter) const = 0;
 
     // Time
     virtual int currentFrame() const = 0;
@@ -156,6 +163,8 @@ Q_SIGNALS:
     void playingChanged(bool playing);
     /// A stroke, undo, paste or another change has ended. Pixels of the current frame may be different.
     void drawingChanged(int frame);
+    /// The same may be so for every frame: drawings were moved in time, or the opacity of a layer was set.
+    void drawingsChanged();
     void layersChanged();
     void layerDelivered(const QString& name);
     void layerFailed(const lampblack::UserError& error);

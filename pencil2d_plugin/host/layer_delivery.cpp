@@ -61,7 +61,7 @@ QByteArray digestOf(const Cel& cel)
 
 /// Returns an error message, empty on success.
 QString writeLayer(ProjectFile* file, const QString& name, const QMap<int, QString>& pictures,
-                   const CameraKeys& camera, int frameCount)
+                   const CameraPath& camera, int frameCount)
 {
     QString writeError = QStringLiteral("The key frames cannot be written to the temporary folder.");
     QImage empty(1, 1, QImage::Format_ARGB32);
@@ -119,7 +119,7 @@ LayerDelivery::~LayerDelivery()
     mWriters.waitForDone();
 }
 
-void LayerDelivery::deliver(const QString& name, const QMap<int, QString>& pictures, const CameraKeys& camera,
+void LayerDelivery::deliver(const QString& name, const QMap<int, QString>& pictures, const CameraPath& camera,
                             int frameCount)
 {
     cancel();

@@ -23,7 +23,7 @@ public:
     ~LayerDelivery() override;
 
     /// See Host::deliverLayer(). `camera` is the camera of the export.
-    void deliver(const QString& name, const QMap<int, QString>& pictures, const CameraKeys& camera,
+    void deliver(const QString& name, const QMap<int, QString>& pictures, const CameraPath& camera,
                  int frameCount);
     void cancel();
 

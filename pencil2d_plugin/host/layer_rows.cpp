@@ -21,8 +21,8 @@ namespace
 constexpr int RowHeight = 20; ///< of the header too
 constexpr int EyeX = 10;
 constexpr int NameX = 80;
-constexpr int IconX = 19;
-constexpr int IconReach = 5; ///< each kind has its own place, a few pixels from another's
+const QPoint IconCorner(19, -2);
+constexpr int IconReach = 7; ///< each kind and version has its own place, a few pixels from another's
 constexpr int MaxRows = 500;
 const QPoint EyeCentre(EyeX, 8);
 
@@ -63,24 +63,33 @@ int difference(QRgb a, QRgb b)
     return std::abs(qRed(a) - qRed(b)) + std::abs(qGreen(a) - qGreen(b)) + std::abs(qBlue(a) - qBlue(b));
 }
 
-/// Mean difference between the icon on the row's background colour and the row's pixels at `at`.
+/// Mean difference between the icon on the row's background colour and the row's pixels at `at`. The icon may
+/// be higher than the row.
 double iconDifference(const QImage& rowImage, const QImage& icon, const QPoint& at)
 {
     QImage expected(icon.size(), QImage::Format_RGB32);
     expected.fill(rowImage.pixel(1, RowHeight / 2));
     QPainter(&expected).drawImage(0, 0, icon);
+    const QRect seen = QRect(at, icon.size()).intersected(rowImage.rect());
     qint64 sum = 0;
-    for (int y = 0; y < icon.height(); ++y)
+    for (int y = seen.top(); y <= seen.bottom(); ++y)
     {
-        for (int x = 0; x < icon.width(); ++x)
-        {
-            const QPoint there = at + QPoint(x, y);
-            if (!rowImage.valid(there))
-                return 1000;
-            sum += difference(expected.pixel(x, y), rowImage.pixel(there));
-        }
+        for (int x = seen.left(); x <= seen.right(); ++x)
+            sum += difference(expected.pixel(QPoint(x, y) - at), rowImage.pixel(x, y));
     }
-    return double(sum) / qMax(1, icon.width() * icon.height());
+    return double(sum) / qMax(1, seen.width() * seen.height());
+}
+
+/// Pencil2D's own icon of a kind of layers; a null image if it has none that is known.
+QImage iconOf(const char* kind)
+{
+    for (const char* path : {":/icons/layer-%1.png", ":/icons/themes/playful/timeline/cell-%1.svg"})
+    {
+        const QImage icon(QString::fromLatin1(path).arg(QLatin1String(kind)));
+        if (!icon.isNull())
+            return icon;
+    }
+    return {};
 }
 
 } // namespace
@@ -229,20 +238,21 @@ bool LayerRows::rename(int row, const QString& name) const
 
 Layer::Kind LayerRows::recogniseKind(const QImage& rowImage) const
 {
-    static const std::array<std::pair<const char*, Layer::Kind>, 4> Icons{
-        {{":/icons/layer-bitmap.png", Layer::Kind::Bitmap},
-         {":/icons/layer-vector.png", Layer::Kind::Vector},
-         {":/icons/layer-sound.png", Layer::Kind::Sound},
-         {":/icons/layer-camera.png", Layer::Kind::Camera}}};
+    static const std::array<std::pair<const char*, Layer::Kind>, 4> Kinds{{{"bitmap", Layer::Kind::Bitmap},
+                                                                           {"vector", Layer::Kind::Vector},
+                                                                           {"sound", Layer::Kind::Sound},
+                                                                           {"camera", Layer::Kind::Camera}}};
     constexpr double MaxDifference = 60;
     double best = MaxDifference;
     Layer::Kind kind = Layer::Kind::Unknown;
-    for (const auto& [path, candidate] : Icons)
+    for (const auto& [name, candidate] : Kinds)
     {
-        const QImage icon(QString::fromLatin1(path));
+        const QImage icon = iconOf(name);
+        if (icon.isNull())
+            continue;
         for (int shift = 0; shift < IconReach * IconReach; ++shift)
         {
-            const QPoint at(IconX + shift % IconReach, shift / IconReach);
+            const QPoint at = IconCorner + QPoint(shift % IconReach, shift / IconReach);
             const double fit = iconDifference(rowImage, icon, at);
             if (fit < best)
             {

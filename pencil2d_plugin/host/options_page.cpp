@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 #include <QScrollArea>
+#include <QTimer>
 
 namespace lampblack
 {
@@ -35,11 +36,34 @@ void OptionsPage::setPanel(QWidget* panel)
     mPage->setVisible(mShown);
 }
 
+/// The canvas beside it would jump: in Pencil2D 0.7 the docks are wider at first than their contents need.
+void OptionsPage::holdWidth()
+{
+    if (mHolding || mParts.options->isFloating() || mParts.options->isHidden() || mParts.window == nullptr)
+        return;
+    mHolding = true;
+    const int least = mParts.options->minimumWidth();
+    const int width = mParts.options->width();
+    mParts.options->setMinimumWidth(width);
+    const auto release = [this, least, width]
+    {
+        mHolding = false;
+        if (mParts.window == nullptr || mParts.options == nullptr)
+            return;
+        mParts.window->resizeDocks({mParts.options}, {width}, Qt::Horizontal);
+        mParts.options->setMinimumWidth(least);
+    };
+    // Later than the layout of all docks, which goes on for some events.
+    constexpr int LayoutMs = 100;
+    QTimer::singleShot(LayoutMs, this, release);
+}
+
 void OptionsPage::show(bool panel)
 {
     mShown = panel;
     if (mPage == nullptr || mParts.options == nullptr)
         return;
+    holdWidth();
     QWidget* place = mParts.options->widget();
     if (panel)
     {

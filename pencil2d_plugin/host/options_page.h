@@ -18,10 +18,13 @@ public:
     void show(bool panel);
 
 private:
+    void holdWidth();
+
     Parts mParts;
     QPointer<QWidget> mPage;
     QVector<QPointer<QWidget>> mHidden; ///< the program's own widgets, while ours is shown
     bool mShown = false;
+    bool mHolding = false;
 };
 
 } // namespace lampblack

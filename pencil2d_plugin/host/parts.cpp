@@ -76,13 +76,15 @@ Parts findParts(QMainWindow* window)
                 parts.playback = object;
             else if (isClass(object, "PreferenceManager"))
                 parts.preferences = object;
+            else if (isClass(object, "OverlayManager"))
+                parts.isSince07 = true;
         }
         else if (isClass(widget, "ScribbleArea"))
             parts.canvas = widget;
         else if (isClass(widget, "BackgroundWidget"))
             parts.background = widget;
         else if (isClass(widget, "ToolBoxWidget"))
-            parts.palette = qobject_cast<QDockWidget*>(widget);
+            parts.palette = widget;
         else if (isClass(widget, "ToolOptionWidget"))
             parts.options = qobject_cast<QDockWidget*>(widget);
         else if (isClass(widget, "TimeControls"))

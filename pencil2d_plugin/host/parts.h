@@ -22,11 +22,12 @@ struct Parts
     QPointer<QObject> view;
     QPointer<QObject> playback;
     QPointer<QObject> preferences;
-    QPointer<QDockWidget> palette;
+    QPointer<QWidget> palette; ///< the dock of the tools, or since 0.7.2 what is in it
     QPointer<QDockWidget> options;
     QPointer<QWidget> timeControls;
     QPointer<QWidget> layerCells; ///< names and eyes of the layers, left of the tracks
     QPointer<QWidget> trackCells;
+    bool isSince07 = false; ///< of Pencil2D 0.7 or later
 
     QAction* action(const char* name) const;
     QVector<QToolButton*> toolButtons() const; ///< the checkable buttons of the palette

@@ -22,9 +22,9 @@ QSettings ourSettings()
     return QSettings(QStringLiteral("Lampblack"), QStringLiteral("Pencil2D"));
 }
 
-bool isStatic(const CameraKeys& keys)
+bool isStatic(const CameraPath& path)
 {
-    return std::all_of(keys.begin(), keys.end(), [](const QTransform& view) { return view.isIdentity(); });
+    return std::all_of(path.begin(), path.end(), [](const QTransform& view) { return view.isIdentity(); });
 }
 
 bool isSame(const Layer& a, const Layer& b)
@@ -36,8 +36,8 @@ bool isSame(const Layer& a, const Layer& b)
 
 Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
-      mLeaveGuard(parts, nullptr), mTitleMark(parts, nullptr), mPlaces(parts), mRows(parts), mView(parts),
-      mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
+      mLeaveGuard(parts, nullptr), mTitleMark(parts, nullptr), mPlaces(parts), mRows(parts), mGuides(parts),
+      mView(parts), mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
       mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr), mOptions(parts, nullptr),
       mCanvasSize(DefaultCanvas)
 {
@@ -67,12 +67,14 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     connect(&mDrawing, &DrawingWatch::changed, this,
             [this]
             {
-                if (mOnCamera)
-                {
-                    mCameraKnown = false;
-                    mSurveyTimer.start();
-                }
+                forgetCamera();
                 Q_EMIT drawingChanged(currentFrame());
+            });
+    connect(&mDrawing, &DrawingWatch::manyChanged, this,
+            [this]
+            {
+                forgetCamera();
+                Q_EMIT drawingsChanged();
             });
     connect(&mDrawing, &DrawingWatch::layersMaybeChanged, this, &Pencil2DHost::onLayersMaybeChanged);
     connect(&mDrawing, &DrawingWatch::eyeMaybeChanged, this, &Pencil2DHost::surveyEyes);
@@ -90,6 +92,7 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
         connect(parts.view, SIGNAL(viewChanged()), this, SIGNAL(viewChanged()));
     if (has(parts.layers, "currentLayerChanged(int)"))
         connect(parts.layers, SIGNAL(currentLayerChanged(int)), this, SLOT(onCurrentLayerChanged(int)));
+    connect(parts.window->statusBar(), &QStatusBar::messageChanged, this, &Pencil2DHost::restoreStatus);
     if (has(parts.preferences, "optionChanged(SETTING)"))
         connect(parts.preferences, SIGNAL(optionChanged(SETTING)), this, SLOT(forgetPaper()));
 
@@ -121,7 +124,7 @@ QString Pencil2DHost::whyNot(Ability ability) const
 
 void Pencil2DHost::addTool(QAction* tool)
 {
-    if (can(Ability::Palette))
+    if (mParts.window != nullptr)
         mPalette.add(tool);
 }
 
@@ -133,8 +136,18 @@ void Pencil2DHost::setToolPanel(QWidget* panel)
 
 void Pencil2DHost::showStatus(const QString& text, int milliseconds)
 {
-    if (mParts.window != nullptr)
-        mParts.window->statusBar()->showMessage(text, milliseconds);
+    if (mParts.window == nullptr)
+        return;
+    if (milliseconds == 0)
+        mStatus = text;
+    mParts.window->statusBar()->showMessage(text, milliseconds);
+}
+
+void Pencil2DHost::restoreStatus(const QString& shown)
+{
+    // Queued, because the message is still being cleared. Pencil2D 0.7 would show the hint of its own tool.
+    if (shown.isEmpty() && !mStatus.isEmpty())
+        QTimer::singleShot(0, this, [this] { showStatus(mStatus, 0); });
 }
 
 QVariant Pencil2DHost::remembered(const QString& key, const QVariant& otherwise) const
@@ -154,7 +167,9 @@ std::optional<QTransform> Pencil2DHost::canvasToWidget() const
         return std::nullopt;
     const QPointF origin = originIn(mCanvasSize);
     const QTransform toOrigin = QTransform::fromTranslate(-origin.x(), -origin.y());
-    return toOrigin * snappedToPixels(matrices->widget);
+    // Pencil2D 0.6 scales what it painted, where a screen has more pixels than logical ones.
+    const double ratio = mParts.isSince07 ? mParts.canvas->devicePixelRatioF() : 1;
+    return toOrigin * snappedToPixels(matrices->widget, ratio);
 }
 
 QColor Pencil2DHost::paper() const
@@ -181,7 +196,7 @@ void Pencil2DHost::requestFrames(int first, int last, const QStringList& layers)
     }
     const UserError error{
         QStringLiteral("Frames cannot be read from this version of Pencil2D."),
-        QStringLiteral("Use Pencil2D 0.6.6, or light the exported images on the command line."),
+        QStringLiteral("Use Pencil2D 0.6.6 to 0.7.2, or light the exported images on the command line."),
         whyNot(Ability::Frames)};
     for (int frame = first; frame <= last; ++frame)
         Q_EMIT exportFailed(frame, error);
@@ -213,6 +228,15 @@ void Pencil2DHost::deliverLayer(const QString& name, const QMap<int, QString>& p
     Q_EMIT layerFailed({QStringLiteral("This version of Pencil2D takes no layer from Lampblack."),
                         QStringLiteral("Import the rendered frames as an image sequence."),
                         whyNot(Ability::Deliver)});
+}
+
+/// If it may have been moved: its layer is the current one.
+void Pencil2DHost::forgetCamera()
+{
+    if (!mOnCamera)
+        return;
+    mCameraKnown = false;
+    mSurveyTimer.start();
 }
 
 void Pencil2DHost::onCurrentLayerChanged(int index)
@@ -350,13 +374,47 @@ void Pencil2DHost::surveyCamera(int row)
 {
     const Idleness::Work work(&mIdleness);
     const QSignalBlocker still(&mTransport);
-    const auto keys = readCamera(mParts, mRows, &mView, row, [this] { return mTransport.currentFrame(); });
-    const bool moved = !isStatic(mCamera) || (keys && !isStatic(*keys));
-    const bool changed = moved && mCamera != keys.value_or(CameraKeys());
-    mCamera = keys.value_or(CameraKeys());
+    const auto path = mParts.isSince07 ? readDrawnCamera(row) : readShownCamera(row);
+    const bool moved = !isStatic(mCamera) || (path && !isStatic(*path));
+    const bool changed = moved && mCamera != path.value_or(CameraPath());
+    mCamera = path.value_or(CameraPath());
     // Frames exported before show the camera as it was.
     if (changed)
         Q_EMIT layersChanged();
+}
+
+/// Pencil2D 0.6 shows the canvas through the camera whose layer is the current one.
+std::optional<CameraPath> Pencil2DHost::readShownCamera(int row)
+{
+    const auto read = [this]() -> std::optional<QTransform>
+    {
+        const auto matrices = mView.read();
+        return matrices ? std::optional<QTransform>(matrices->view) : std::nullopt;
+    };
+    return readCamera(mParts, mRows, row, read, [this] { return mTransport.currentFrame(); });
+}
+
+/// Pencil2D 0.7 draws its frame instead, while the tool that moves it is in use.
+std::optional<CameraPath> Pencil2DHost::readDrawnCamera(int row)
+{
+    std::optional<CameraPath> path;
+    const UpdatesOff unseen({mParts.window});
+    const int rowBefore = mRows.currentRow();
+    const auto read = [this]() -> std::optional<QTransform>
+    {
+        const auto matrices = mView.read();
+        return matrices ? readCameraFrame(mParts.canvas, matrices->widget, mCanvasSize) : std::nullopt;
+    };
+    mRows.select(row);
+    mPalette.workWith(mParts.action("actionMove"),
+                      [&]
+                      {
+                          path = readCamera(mParts, mRows, row, read,
+                                            [this] { return mTransport.currentFrame(); });
+                          mRows.select(rowBefore);
+                      });
+    mRows.select(rowBefore);
+    return path;
 }
 
 Host* createHost(QObject* parent)

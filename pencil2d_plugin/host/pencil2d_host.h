@@ -1,9 +1,11 @@
-// The host for an unmodified Pencil2D 0.6. It uses its widgets, actions and meta-objects.
+// The host for an unmodified Pencil2D 0.6 or 0.7. It uses its widgets, actions and meta-objects.
 #pragma once
 
+#include "host/camera_frame.h"
 #include "host/camera_path.h"
 #include "host/drawing_watch.h"
 #include "host/frame_queue.h"
+#include "host/guides.h"
 #include "host/layer_delivery.h"
 #include "host/leave_guard.h"
 #include "host/options_page.h"
@@ -41,6 +43,7 @@ public:
     std::optional<QTransform> canvasToWidget() const override;
     QSize canvasSize() const override { return mCanvasSize; }
     QColor paper() const override;
+    void paintGuides(QPainter* painter) const override { mGuides.paint(painter); }
 
     int currentFrame() const override { return mTransport.currentFrame(); }
     void goToFrame(int frame) override { mTransport.goTo(frame); }
@@ -68,10 +71,14 @@ public:
 private Q_SLOTS:
     void onCurrentLayerChanged(int index);
     void forgetPaper() { mPaper = QColor(); }
+    void restoreStatus(const QString& shown);
 
 private:
     void surveyProject();
     void surveyCamera(int row);
+    std::optional<CameraPath> readShownCamera(int row);
+    std::optional<CameraPath> readDrawnCamera(int row);
+    void forgetCamera();
     void onDialogRead(const ExportResult& exported);
     void onExported(int frame, const QStringList& layers, const QImage& image);
     void onProjectOpened(const QString& path);
@@ -88,6 +95,7 @@ private:
     TitleMark mTitleMark;
     WindowPlaces mPlaces;
     LayerRows mRows;
+    Guides mGuides;
     mutable ViewReader mView;
     FrameQueue mQueue;
     LayerDelivery mDelivery;
@@ -97,10 +105,11 @@ private:
     QTimer mSurveyTimer;
 
     QVector<Layer> mLayers;
-    CameraKeys mCamera;
+    CameraPath mCamera;
     QString mCameraName;
     QSize mCanvasSize;
     mutable QColor mPaper;
+    QString mStatus;      ///< shown whenever nothing else is
     int mCurrentRow = -1; ///< of mLayers
     int mLayerAttempts = 0;
     bool mLayersKnown = false;

@@ -1,7 +1,7 @@
 #include "host/tool_palette.h"
 
 #include <QActionGroup>
-#include <QGuiApplication>
+#include <QButtonGroup>
 #include <QLayout>
 #include <QMenu>
 
@@ -22,12 +22,27 @@ ToolPalette::~ToolPalette()
 
 void ToolPalette::add(QAction* tool)
 {
-    const QVector<QToolButton*> tools = mParts.toolButtons();
-    if (mAction != nullptr || tools.isEmpty())
+    if (mAction != nullptr)
         return;
     mAction = tool;
+    connect(tool, &QAction::toggled, this, &ToolPalette::onToggled);
+    // In an exclusive group, clicking the active tool again keeps it, as with the other tools.
+    (new QActionGroup(this))->addAction(tool);
+    // The program changes its tool on its own too: while Alt, the space bar or the middle button is held.
+    // Since 0.7 it announces its tool again whenever a key is released, and it may check the button of that
+    // tool.
+    if (has(mParts.tools, "toolChanged(ToolType)"))
+        connect(mParts.tools, SIGNAL(toolChanged(ToolType)), this, SLOT(uncheckOthers()));
+    addButton(tool);
+    addToMenu(tool);
+}
+
+void ToolPalette::addButton(QAction* tool)
+{
+    const QVector<QToolButton*> tools = mParts.toolButtons();
+    if (tools.isEmpty() || tools.last()->parentWidget()->layout() == nullptr)
+        return;
     const QToolButton* neighbour = tools.last();
-    auto* layout = neighbour->parentWidget()->layout();
     mButton = new QToolButton(neighbour->parentWidget());
     mButton->setObjectName(QStringLiteral("lampblackButton"));
     mButton->setDefaultAction(tool);
@@ -39,16 +54,14 @@ void ToolPalette::add(QAction* tool)
     mButton->setAutoRaise(neighbour->autoRaise());
     mButton->setFocusPolicy(neighbour->focusPolicy());
     mButton->setStyleSheet(neighbour->styleSheet());
-    layout->addWidget(mButton);
+    neighbour->parentWidget()->layout()->addWidget(mButton);
     mButton->show();
-
-    connect(tool, &QAction::toggled, this, &ToolPalette::onToggled);
-    // In an exclusive group, clicking the active tool again keeps it, as with the other tools.
-    (new QActionGroup(this))->addAction(tool);
-    connect(mParts.tools, SIGNAL(toolChanged(ToolType)), this, SLOT(onToolChanged()));
     for (QToolButton* other : tools)
         connect(other, &QToolButton::clicked, this, &ToolPalette::deactivate);
+}
 
+void ToolPalette::addToMenu(QAction* tool)
+{
     auto* menu = mParts.window->findChild<QMenu*>(QStringLiteral("menuTools"));
     if (menu == nullptr)
     {
@@ -63,55 +76,63 @@ void ToolPalette::add(QAction* tool)
     menu->insertAction(separator == entries.end() ? nullptr : *separator, tool);
 }
 
+bool ToolPalette::workWith(QAction* tool, const std::function<void()>& work)
+{
+    const QPointer<QToolButton> before = checkedOther() != nullptr ? checkedOther() : mBefore.data();
+    if (before == nullptr || tool == nullptr)
+        return false;
+    mWorking = true;
+    tool->trigger();
+    work();
+    if (before != nullptr)
+        before->click();
+    mWorking = false;
+    uncheckOthers();
+    return true;
+}
+
+QToolButton* ToolPalette::checkedOther() const
+{
+    const QVector<QToolButton*> tools = mParts.toolButtons();
+    const auto checked =
+        std::find_if(tools.begin(), tools.end(),
+                     [this](const QToolButton* button) { return button != mButton && button->isChecked(); });
+    return checked == tools.end() ? nullptr : *checked;
+}
+
 void ToolPalette::onToggled(bool checked)
 {
     if (checked)
         uncheckOthers();
-    else if (mBefore != nullptr)
-    {
-        const QVector<QToolButton*> tools = mParts.toolButtons();
-        const bool other = std::any_of(tools.begin(), tools.end(),
-                                       [this](const QToolButton* button)
-                                       { return button != mButton && button->isChecked(); });
-        if (!other)
-            mBefore->setChecked(true);
-        mBefore = nullptr;
-    }
+    else if (mBefore != nullptr && checkedOther() == nullptr)
+        mBefore->setChecked(true);
     Q_EMIT activated(checked);
 }
 
 void ToolPalette::uncheckOthers()
 {
+    if (mAction == nullptr || !mAction->isChecked())
+        return;
     const QVector<QToolButton*> tools = mParts.toolButtons();
     for (QToolButton* button : tools)
     {
         if (button == mButton || !button->isChecked())
             continue;
         mBefore = button;
+        // An exclusive group, which 0.7.2 has, always keeps one button checked.
+        QButtonGroup* group = button->group();
+        const bool isExclusive = group != nullptr && group->exclusive();
+        if (isExclusive)
+            group->setExclusive(false);
         button->setChecked(false);
+        if (isExclusive)
+            group->setExclusive(true);
     }
-}
-
-void ToolPalette::onToolChanged()
-{
-    if (mAction == nullptr || !mAction->isChecked())
-        return;
-    // While Alt is held, for example, Pencil2D switches to the eyedropper and back. The artist did not choose
-    // it.
-    const bool isHeld = QGuiApplication::queryKeyboardModifiers() != Qt::NoModifier;
-    if (!isHeld && !mTemporarySwitch)
-    {
-        deactivate();
-        return;
-    }
-    mTemporarySwitch = isHeld;
-    uncheckOthers();
 }
 
 void ToolPalette::deactivate()
 {
-    mTemporarySwitch = false;
-    if (mAction != nullptr)
+    if (mAction != nullptr && !mWorking)
         mAction->setChecked(false);
 }
 

@@ -30,14 +30,6 @@ QTransform matrixAt(const char* bytes)
     return QTransform(m[0], m[1], m[6], m[2], m[3], m[7], m[4], m[5], m[8]);
 }
 
-bool near(const QTransform& a, const QTransform& b)
-{
-    const double reach = 1 + std::abs(b.dx()) + std::abs(b.dy());
-    return std::abs(a.m11() - b.m11()) < Tolerance && std::abs(a.m12() - b.m12()) < Tolerance &&
-           std::abs(a.m21() - b.m21()) < Tolerance && std::abs(a.m22() - b.m22()) < Tolerance &&
-           std::abs(a.dx() - b.dx()) < Tolerance * reach && std::abs(a.dy() - b.dy()) < Tolerance * reach;
-}
-
 bool isAffine(const QTransform& m)
 {
     for (const double value : {m.m11(), m.m12(), m.m21(), m.m22(), m.dx(), m.dy()})
@@ -49,6 +41,14 @@ bool isAffine(const QTransform& m)
 }
 
 } // namespace
+
+bool areNear(const QTransform& a, const QTransform& b)
+{
+    const double reach = 1 + std::abs(b.dx()) + std::abs(b.dy());
+    return std::abs(a.m11() - b.m11()) < Tolerance && std::abs(a.m12() - b.m12()) < Tolerance &&
+           std::abs(a.m21() - b.m21()) < Tolerance && std::abs(a.m22() - b.m22()) < Tolerance &&
+           std::abs(a.dx() - b.dx()) < Tolerance * reach && std::abs(a.dy() - b.dy()) < Tolerance * reach;
+}
 
 QByteArray readSafely(const void* address, int size)
 {
@@ -83,8 +83,9 @@ std::optional<ViewMatrices> matricesAt(const QByteArray& bytes, int offset)
 bool areConsistent(const ViewMatrices& matrices, const QSize& widget)
 {
     const QTransform centre = QTransform::fromTranslate(widget.width() / 2.0, widget.height() / 2.0);
-    return near(matrices.view * matrices.viewInverse, QTransform()) &&
-           near(matrices.widget * matrices.widgetInverse, QTransform()) && near(matrices.centre, centre);
+    return areNear(matrices.view * matrices.viewInverse, QTransform()) &&
+           areNear(matrices.widget * matrices.widgetInverse, QTransform()) &&
+           areNear(matrices.centre, centre);
 }
 
 int findMatrices(const QByteArray& bytes, const QSize& widget, bool flipX, bool flipY, double zoom)
@@ -95,7 +96,7 @@ int findMatrices(const QByteArray& bytes, const QSize& widget, bool flipX, bool 
     {
         const auto matrices = matricesAt(bytes, offset);
         if (!matrices || !areConsistent(*matrices, widget) ||
-            !near(matrices->view * flip * matrices->centre, matrices->widget))
+            !areNear(matrices->view * flip * matrices->centre, matrices->widget))
         {
             continue;
         }
@@ -117,7 +118,7 @@ double zoomOf(const QString& label)
                             : 0;
 }
 
-QTransform snappedToPixels(const QTransform& widget)
+QTransform snappedToPixels(const QTransform& widget, double ratio)
 {
     const auto isWhole = [](double value)
     {
@@ -128,8 +129,8 @@ QTransform snappedToPixels(const QTransform& widget)
     {
         return widget;
     }
-    return QTransform(widget.m11(), 0, 0, widget.m22(), std::floor(widget.dx() + 0.5),
-                      std::floor(widget.dy() + 0.5));
+    return QTransform(widget.m11(), 0, 0, widget.m22(), std::floor(widget.dx() * ratio + 0.5) / ratio,
+                      std::floor(widget.dy() * ratio + 0.5) / ratio);
 }
 
 bool ViewReader::findOffset()

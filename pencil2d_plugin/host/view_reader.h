@@ -27,6 +27,9 @@ struct ViewMatrices
     QTransform centre;
 };
 
+/// Whether two affine transforms differ by less than a pixel shows.
+bool areNear(const QTransform& a, const QTransform& b);
+
 /// Copy `size` bytes from `address`; empty if not all of them can be read. Never crashes.
 QByteArray readSafely(const void* address, int size);
 
@@ -44,8 +47,8 @@ int findMatrices(const QByteArray& bytes, const QSize& widget, bool flipX, bool 
 double zoomOf(const QString& label);
 
 /// The view as Pencil2D paints it: without rotation and at a whole zoom, it paints bitmaps at the nearest
-/// whole logical pixel (halves are rounded up).
-QTransform snappedToPixels(const QTransform& widget);
+/// whole pixel (halves are rounded up). Logical pixels, of which its canvas has `ratio` across and down each.
+QTransform snappedToPixels(const QTransform& widget, double ratio = 1);
 
 class ViewReader
 {

@@ -19,17 +19,17 @@ FrameFeed::FrameFeed(Host& host, Worker& worker, SceneDocument& document, QObjec
     connect(&host, &Host::drawingChanged, this,
             [this](int frame)
             {
-                const QVector<int> frames = framesLike(frame);
-                for (const int each : frames)
-                {
-                    mApart.markChanged(each, mHost.currentLayer());
-                    invalidate(each);
-                    Q_EMIT frameRedrawn(each);
-                }
+                redraw(framesLike(frame));
                 if (mRest.interval() > 0)
                     mRest.start();
                 else
                     requestCurrent();
+            });
+    connect(&host, &Host::drawingsChanged, this,
+            [this]
+            {
+                redraw(mUpToDate.values().toVector());
+                requestCurrent();
             });
     mRest.setSingleShot(true);
     mRest.setInterval(0);
@@ -125,6 +125,16 @@ void FrameFeed::onFrameExported(const FrameExport& frame, const DrawnLayers& lay
     const int cost = int((frame.image.sizeInBytes() + sent.light.sizeInBytes()) / 1024) + 1;
     mExports.insert(frame.frame, new Sent(sent), cost);
     Q_EMIT frameSent(frame.frame);
+}
+
+void FrameFeed::redraw(const QVector<int>& frames)
+{
+    for (const int frame : frames)
+    {
+        mApart.markChanged(frame, mHost.currentLayer());
+        invalidate(frame);
+        Q_EMIT frameRedrawn(frame);
+    }
 }
 
 /// The frame and those that show the same drawing, or may do so: a drawing is held over several frames, and

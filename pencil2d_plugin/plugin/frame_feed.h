@@ -67,6 +67,7 @@ private:
     void request(int frame);
     void cancelRequests();
     void onFrameExported(const FrameExport& frame, const DrawnLayers& layers);
+    void redraw(const QVector<int>& frames);
     void invalidate(int frame);
     QVector<int> framesLike(int frame) const;
     void invalidateAll();

@@ -7,6 +7,11 @@
 namespace lampblack
 {
 
+namespace
+{
+constexpr int ProgressMs = 60000; ///< longer than a frame of a job takes
+}
+
 Studio::Studio(Host& host, std::unique_ptr<Worker> worker, QObject* parent)
     : QObject(parent), mHost(host), mWorker(std::move(worker)),
       mTool(std::make_unique<LampTool>(host, *mWorker, mDocument)),
@@ -190,7 +195,7 @@ void Studio::connectJobs()
             [this](ShotJob::Kind, int done, int total, const QString& doing)
             {
                 mTool->setProgress(doing, done, total);
-                mHost.showStatus(tr("%1: %2 of %3").arg(doing).arg(done).arg(total));
+                mHost.showStatus(tr("%1: %2 of %3").arg(doing).arg(done).arg(total), ProgressMs);
             });
     connect(mJob.get(), &ShotJob::finished, this,
             [this](ShotJob::Kind, const QString& message)

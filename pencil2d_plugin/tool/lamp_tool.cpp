@@ -25,6 +25,11 @@ static void initIcons()
 namespace lampblack
 {
 
+namespace
+{
+constexpr int ProblemMs = 10000; ///< how long the status bar shows a problem
+}
+
 LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mTool(new QAction(this)),
       mSurfaces(new QAction(this)), mRender(new QAction(this)), mCancel(new QAction(this)),
@@ -108,13 +113,9 @@ void LampTool::addTool()
     mTool->setToolTip(tr("<b>Lamp Tool (L)</b><br>Light the drawing"));
     mTool->setStatusTip(
         tr("Drag a light to move it, turn the wheel over it for its height, right-click for more"));
-    if (mHost.can(Host::Ability::Palette))
-    {
-        mHost.addTool(mTool);
-        return;
-    }
-    mHost.addLightAction(mTool);
-    connect(mTool, &QAction::toggled, this, &LampTool::setActive);
+    mHost.addTool(mTool);
+    if (!mHost.can(Host::Ability::Palette))
+        mHost.addLightAction(mTool);
 }
 
 void LampTool::addPanel()
@@ -423,7 +424,7 @@ void LampTool::showProblem(const UserError& error)
         return;
     if (mPanel)
         mPanel->showProblem(error);
-    mHost.showStatus(error.what);
+    mHost.showStatus(error.what, ProblemMs);
 }
 
 void LampTool::settleProblem(UserError::Kind kind)

@@ -41,7 +41,11 @@ def missing() -> str:
 
 
 def wait_until(happened: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
-    """Return the first true answer; fail after ``seconds``, naming what was waited for."""
+    """Return the first true answer; fail after ``seconds``, naming what was waited for.
+
+    On a machine that is busy, LAMPBLACK_PATIENCE makes it that many times as long.
+    """
+    seconds *= float(os.environ.get("LAMPBLACK_PATIENCE", "1"))
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
         answer = happened()

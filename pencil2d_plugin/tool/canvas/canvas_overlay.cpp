@@ -202,7 +202,10 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
     if (showsLayer())
         mLayer.paint(painter, *mCanvasToWidget);
     else if (showsPicture() || showsStandIn())
+    {
         mPicture.paint(painter, *mCanvasToWidget, size(), devicePixelRatioF(), mHost.paper());
+        paintGuides(painter);
+    }
     if (mPlaying || mDrawing)
         return;
     if (mBrush)
@@ -220,6 +223,15 @@ void CanvasOverlay::paintEvent(QPaintEvent* event)
     }
     if (!mTag.isEmpty())
         paintTag(painter, mTag, mTagPosition, size());
+}
+
+/// Where the picture covers them.
+void CanvasOverlay::paintGuides(QPainter& painter) const
+{
+    painter.save();
+    painter.setClipPath(mPicture.outline(*mCanvasToWidget), Qt::IntersectClip);
+    mHost.paintGuides(&painter);
+    painter.restore();
 }
 
 bool CanvasOverlay::eventFilter(QObject* watched, QEvent* event)

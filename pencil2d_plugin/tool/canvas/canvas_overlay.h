@@ -71,6 +71,7 @@ protected:
 private:
     QRegion handlesRegion() const;
     void followPicture();
+    void paintGuides(QPainter& painter) const;
     bool showsLayer() const;
 
     Host& mHost;

@@ -11,11 +11,12 @@ bool isSame(const PreviewImage& one, const PreviewImage& other)
     return one.picture.cacheKey() == other.picture.cacheKey() && one.crop == other.crop;
 }
 
-QRectF covered(const PreviewImage& image, const QTransform& canvasToImage, const QTransform& canvasToWidget)
+QPolygonF covered(const PreviewImage& image, const QTransform& canvasToImage,
+                  const QTransform& canvasToWidget)
 {
     if (image.picture.isNull())
         return {};
-    return (canvasToImage.inverted() * canvasToWidget).mapRect(image.crop);
+    return (canvasToImage.inverted() * canvasToWidget).map(QPolygonF(image.crop));
 }
 
 void drawLayers(QPainter& painter, const FrameExport& layers, const QRectF& crop,
@@ -73,10 +74,16 @@ QRect LitPicture::bounds(const QTransform& canvasToWidget) const
 {
     if (isEmpty())
         return {};
-    return covered(mImage, mCanvasToImage, canvasToWidget)
-        .united(covered(mStandIn, mCanvasToStandIn, canvasToWidget))
-        .adjusted(-1, -1, 1, 1)
-        .toAlignedRect();
+    return outline(canvasToWidget).boundingRect().adjusted(-1, -1, 1, 1).toAlignedRect();
+}
+
+QPainterPath LitPicture::outline(const QTransform& canvasToWidget) const
+{
+    QPainterPath outline;
+    outline.setFillRule(Qt::WindingFill);
+    outline.addPolygon(covered(mImage, mCanvasToImage, canvasToWidget));
+    outline.addPolygon(covered(mStandIn, mCanvasToStandIn, canvasToWidget));
+    return outline;
 }
 
 void LitPicture::paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view,

@@ -5,6 +5,7 @@
 #include "worker/worker.h"
 
 #include <QPainter>
+#include <QPainterPath>
 #include <QPixmap>
 
 namespace lampblack
@@ -31,6 +32,7 @@ public:
 
     /// The widget pixels that the picture and its stand-in cover.
     QRect bounds(const QTransform& canvasToWidget) const;
+    QPainterPath outline(const QTransform& canvasToWidget) const;
 
     void paint(QPainter& painter, const QTransform& canvasToWidget, const QSize& view, double pixelRatio,
                const QColor& paper);

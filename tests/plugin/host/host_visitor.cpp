@@ -167,7 +167,7 @@ private:
 private Q_SLOTS:
     void initTestCase()
     {
-        mHost->window()->resize(1700, 1250);
+        mHost->window()->resize(2000, 1250); // the palette of 0.7 is wide until the tool is first used
         QTest::qWait(100);
         QTRY_COMPARE(mHost->layers().size(), 5);
     }

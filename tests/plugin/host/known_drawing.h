@@ -168,7 +168,9 @@ inline bool writeProject(const QString& path, const QByteArray& camera)
 }
 
 const QByteArray StillCamera = "<camera frame=\"1\" r=\"0\" s=\"1\" dx=\"0\" dy=\"0\"/>";
-const QByteArray MovingCamera = "<camera frame=\"1\" r=\"10\" s=\"0.9\" dx=\"30\" dy=\"-12\"/>"
-                                "<camera frame=\"3\" r=\"30\" s=\"0.7\" dx=\"60\" dy=\"20\"/>";
+/// It turns, shrinks, and in Pencil2D 0.7 eases along a curve.
+const QByteArray MovingCamera =
+    "<camera frame=\"1\" r=\"10\" s=\"0.9\" dx=\"30\" dy=\"-12\" easing=\"3\" pathCPX=\"20\" pathCPY=\"60\"/>"
+    "<camera frame=\"4\" r=\"50\" s=\"0.7\" dx=\"60\" dy=\"20\"/>";
 
 } // namespace known

@@ -2,20 +2,39 @@
 #include "host/export_dialog.h"
 #include "host/pencil2d_host.h"
 
+#include <QButtonGroup>
 #include <QDialog>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenuBar>
+#include <QPainter>
 #include <QShortcutEvent>
 #include <QSignalSpy>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTest>
+#include <QToolButton>
 
 #include <memory>
 
+/// Paints a red drawing, a tool's handle, and over them a guide, as Pencil2D 0.7 does.
 class ScribbleArea : public QWidget
 {
     Q_OBJECT
+protected:
+    void paintEvent(QPaintEvent*) override
+    {
+        QPixmap drawing(size());
+        drawing.fill(Qt::red);
+        QPainter painter(this);
+        painter.drawPixmap(0, 0, drawing);
+        painter.drawRect(2, 2, 6, 6);
+        painter.setWorldTransform(QTransform::fromTranslate(10, 0));
+        painter.setCompositionMode(QPainter::RasterOp_NotSourceAndNotDestination);
+        painter.setPen(Qt::black);
+        painter.drawLine(0, 20, 10, 20);
+    }
 };
 
 class Editor : public QObject
@@ -67,6 +86,38 @@ class TimeControls : public QWidget
 class ColorPaletteWidget : public QDockWidget
 {
     Q_OBJECT
+};
+
+enum ToolType : int
+{
+};
+
+class ToolManager : public QObject
+{
+    Q_OBJECT
+Q_SIGNALS:
+    void toolChanged(ToolType);
+};
+
+/// As in Pencil2D 0.7.2: what the dock of the tools holds, with the buttons in a group.
+class ToolBoxWidget : public QWidget
+{
+    Q_OBJECT
+public:
+    ToolBoxWidget()
+    {
+        auto* layout = new QHBoxLayout(this);
+        auto* group = new QButtonGroup(this);
+        for (QToolButton* button : {&pencil, &brush})
+        {
+            button->setCheckable(true);
+            layout->addWidget(button);
+            group->addButton(button);
+        }
+        pencil.setChecked(true);
+    }
+    QToolButton pencil{this};
+    QToolButton brush{this};
 };
 
 class RecentFileMenu : public QMenu
@@ -153,6 +204,112 @@ private Q_SLOTS:
         (new ViewManager)->setParent(window.get());
         QVERIFY(abilities(*window).contains(Ability::View));
         QVERIFY(!abilities(*window).contains(Ability::Palette));
+    }
+
+    void theToolIsExclusiveInAGroupOfButtons()
+    {
+        const auto window = bareWindow();
+        auto* tools = new ToolManager;
+        tools->setParent(window.get());
+        auto* box = new ToolBoxWidget;
+        auto* dock = new QDockWidget;
+        dock->setWidget(box);
+        window->addDockWidget(Qt::LeftDockWidgetArea, dock);
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QVERIFY(host->can(Ability::Palette));
+        QAction tool(QStringLiteral("Lamp"));
+        tool.setCheckable(true);
+        host->addTool(&tool);
+        QSignalSpy active(host.get(), &Host::toolActivated);
+        tool.trigger();
+        QVERIFY(!box->pencil.isChecked() && !box->brush.isChecked());
+
+        // A key was released, or the space bar is held: the program announces a tool, and checks its button.
+        for (QToolButton* announced : {&box->pencil, &box->brush, &box->pencil})
+        {
+            announced->setChecked(true);
+            Q_EMIT tools->toolChanged({});
+            QVERIFY(tool.isChecked());
+            QVERIFY(!box->pencil.isChecked() && !box->brush.isChecked());
+        }
+        QCOMPARE(active.size(), 1);
+        QTest::mouseClick(&box->brush, Qt::LeftButton);
+        QVERIFY(!tool.isChecked() && box->brush.isChecked() && !box->pencil.isChecked());
+        tool.trigger();
+        tool.setChecked(false);
+        QVERIFY2(box->brush.isChecked(), "the tool before is in use again");
+        QCOMPARE(active.size(), 4);
+    }
+
+    void withoutAPaletteTheToolIsInTheMenuAndThePanelIsShown()
+    {
+        const auto window = bareWindow();
+        QMenu* menu = window->menuBar()->addMenu(QStringLiteral("Tools"));
+        menu->setObjectName(QStringLiteral("menuTools"));
+        QAction* pencil = menu->addAction(QStringLiteral("Pencil"));
+        auto* options = new ToolOptionWidget;
+        auto* page = new QWidget;
+        page->setLayout(new QGridLayout);
+        options->setWidget(page);
+        window->addDockWidget(Qt::LeftDockWidgetArea, options);
+        options->show();
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QVERIFY(!host->can(Ability::Palette));
+        QAction tool(QStringLiteral("Lamp"));
+        tool.setCheckable(true);
+        host->addTool(&tool);
+        auto* panel = new QLabel(QStringLiteral("panel"));
+        host->setToolPanel(panel);
+        QSignalSpy active(host.get(), &Host::toolActivated);
+        QVERIFY(menu->actions().contains(&tool));
+        tool.trigger();
+        QVERIFY(panel->isVisible());
+        pencil->trigger();
+        QVERIFY(!tool.isChecked() && !panel->isVisible());
+        QCOMPARE(active.size(), 2);
+    }
+
+    void theHintComesBackAfterOtherMessages()
+    {
+        const auto window = bareWindow();
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        host->showStatus(QStringLiteral("Drag a light"));
+        host->showStatus(QStringLiteral("Frame 3 of 9"), 20);
+        QCOMPARE(window->statusBar()->currentMessage(), QStringLiteral("Frame 3 of 9"));
+        QTRY_COMPARE(window->statusBar()->currentMessage(), QStringLiteral("Drag a light"));
+        window->statusBar()->clearMessage(); // as when the pointer leaves an entry of a menu
+        QTRY_COMPARE(window->statusBar()->currentMessage(), QStringLiteral("Drag a light"));
+        host->showStatus({});
+        QTest::qWait(50);
+        QCOMPARE(window->statusBar()->currentMessage(), QString());
+    }
+
+    void guidesArePaintedWithoutTheDrawing()
+    {
+        const auto window = bareWindow();
+        QAction thirds;
+        thirds.setObjectName(QStringLiteral("actionThirds"));
+        thirds.setCheckable(true);
+        thirds.setParent(window.get());
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        host->canvas()->resize(60, 40);
+        const auto shown = [&host]
+        {
+            QImage picture(60, 40, QImage::Format_RGB32);
+            picture.fill(Qt::yellow);
+            QPainter painter(&picture);
+            painter.setClipRect(0, 0, 15, 40);
+            host->paintGuides(&painter);
+            return picture;
+        };
+        QImage plain(60, 40, QImage::Format_RGB32);
+        plain.fill(Qt::yellow);
+        QCOMPARE(shown(), plain);
+        thirds.setChecked(true);
+        for (int x = 10; x < 15; ++x)
+            plain.setPixelColor(x, 20, Qt::blue);
+        QCOMPARE(shown(), plain);
+        thirds.setParent(nullptr);
     }
 
     void bareHostSaysWhyNot()

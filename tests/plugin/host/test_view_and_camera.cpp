@@ -1,4 +1,5 @@
 // The view transform is found in memory, and the camera is interpolated between its keys.
+#include "host/camera_frame.h"
 #include "host/camera_path.h"
 #include "host/project_watch.h"
 #include "host/transport.h"
@@ -84,6 +85,7 @@ private Q_SLOTS:
     {
         const QTransform half(3, 0, 0, -3, 10.5, 20.25);
         QCOMPARE(snappedToPixels(half), QTransform(3, 0, 0, -3, 11, 20));
+        QCOMPARE(snappedToPixels(half, 2), QTransform(3, 0, 0, -3, 10.5, 20.5));
         for (const QTransform& kept :
              {QTransform(0.33, 0, 0, 0.33, 10.5, 20.25), QTransform(0, 1, -1, 0, 0.5, 0.5)})
             QCOMPARE(snappedToPixels(kept), kept);
@@ -96,17 +98,37 @@ private Q_SLOTS:
         QCOMPARE(zoomOf(QStringLiteral("Ready")), 0.0);
     }
 
-    void cameraGoesEvenly()
+    void cameraStandsWhereItsPathSaysNothingElse()
     {
         const QTransform a = QTransform::fromTranslate(10, 0);
         const QTransform b(2, 0, 0, 2, 30, 8);
-        const CameraKeys keys{{3, a}, {7, b}};
-        QCOMPARE(cameraAt(keys, 1), a);
-        QCOMPARE(cameraAt(keys, 3), a);
-        QCOMPARE(cameraAt(keys, 4), QTransform(1.25, 0, 0, 1.25, 15, 2));
-        QCOMPARE(cameraAt(keys, 7), b);
-        QCOMPARE(cameraAt(keys, 90), b);
+        const CameraPath path{{3, a}, {7, b}};
+        QCOMPARE(cameraAt(path, 1), a);
+        QCOMPARE(cameraAt(path, 3), a);
+        QCOMPARE(cameraAt(path, 6), a);
+        QCOMPARE(cameraAt(path, 7), b);
+        QCOMPARE(cameraAt(path, 90), b);
         QVERIFY(cameraAt({}, 5).isIdentity());
+    }
+
+    void cameraIsKnownByItsFrame()
+    {
+        const QSize size(641, 480);
+        const QPolygonF frame({{-320, -240}, {321, -240}, {321, 240}, {-320, 240}});
+        const QTransform widget = QTransform(1.5, 0.2, -0.2, 1.5, 300, 210);
+        for (const QTransform& view :
+             {QTransform(), QTransform().rotate(170).scale(0.7, 0.7).translate(31, -8)})
+        {
+            const QPolygonF corners = widget.map(view.inverted().map(frame));
+            const auto found = viewOfFrame(corners, widget, size);
+            QVERIFY(found && areNear(*found, view));
+            QCOMPARE(found->isIdentity(), view.isIdentity());
+            QPolygonF bent = corners;
+            bent[2].rx() += 1;
+            QVERIFY(!viewOfFrame(bent, widget, size));
+        }
+        QVERIFY(!viewOfFrame(QPolygonF({{0, 0}, {0, 0}, {0, 0}, {0, 0}}), widget, size));
+        QVERIFY(!viewOfFrame(QPolygonF(), widget, size));
     }
 
     void cameraTurnsAboutThePicturesCentre()

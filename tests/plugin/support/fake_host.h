@@ -62,6 +62,11 @@ public:
     std::optional<QTransform> canvasToWidget() const override { return mView; }
     QSize canvasSize() const override { return {400, 300}; }
     QColor paper() const override { return mPaper; }
+    void paintGuides(QPainter* painter) const override
+    {
+        if (mGuides)
+            mGuides(painter);
+    }
     int currentFrame() const override { return mFrame; }
     void goToFrame(int frame) override
     {
@@ -145,6 +150,7 @@ public:
     QString mStatus;
     std::optional<QTransform> mView = QTransform();
     QColor mPaper = Qt::white;
+    std::function<void(QPainter*)> mGuides;
     bool mModified = false;
     QVector<Layer> mLayers;
     QString mCurrentLayer;
