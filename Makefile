@@ -3,7 +3,8 @@
 # make lock: renew those. make test-newest: check everything with the newest versions instead.
 .PHONY: demo pencil2d install uninstall environment lock plugin schema format tidy clean \
     check check-python check-types check-cpp build-dev build-asan \
-    test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos
+    test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos \
+    test-window test-trixie test-sid
 
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -62,11 +63,22 @@ test-python: build-dev
 test-newest:
 	NEWEST=1 $(MAKE) test VENV=build/newest
 
+# The plugin in the Pencil2D of this Debian; in that of Debian 13, and of Debian unstable (as root).
+test-window: test-environment
+	cmake --preset dev >/dev/null && cmake --build --preset dev --target $(IN_PENCIL2D)
+	ctest --preset dev -R '^host_'
+	$(BIN)/pytest tests/window
+
+test-trixie test-sid: test-%:
+	scripts/debian_root.sh $* make test-window
+
 test-slow: test
 	$(BIN)/pytest -m slow
 
 test-chaos: build-dev
 	LAMPBLACK_CHAOS_MINUTES=60 $(BIN)/pytest -m slow -s tests/render/test_chaos.py
+
+IN_PENCIL2D = lampblack lampblackprobe host_gates host_view_and_camera host_unseen_dialogs host_in_pencil2d
 
 CPP = $$(git ls-files 'pencil2d_plugin/*.h' 'pencil2d_plugin/*.cpp' 'tests/plugin/*.h' 'tests/plugin/*.cpp')
 

@@ -18,7 +18,6 @@ case "${1:-}" in
     plugin) PACKAGES="$PACKAGES $PLUGIN" ;;
     test) PACKAGES="$PACKAGES $PLUGIN $TEST" ;;
 esac
-PYTHON=${PYTHON:-$(command -v python3.11 || command -v python3 || true)}
 VENV=${VENV:-.venv}
 STAMP=$VENV/installed
 
@@ -28,15 +27,22 @@ fail() {
     exit 1
 }
 
-[ -n "$PYTHON" ] || fail "Python is missing." "On Debian 12: apt-get install python3 python3-venv"
-LOCK=requirements/python$("$PYTHON" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-[ -f "$LOCK.txt" ] ||
-    fail "$PYTHON is not Python 3.11, which Blender's module needs." "Name one: make PYTHON=/path/to/python3.11"
+# Blender's module is for some versions of Python only: those that have a file in requirements/.
+lock_of() { "$1" -c 'import sys; print("requirements/python%d.%d" % sys.version_info[:2])' 2>/dev/null; }
+if [ -z "${PYTHON:-}" ]; then
+    for PYTHON in python3 python3.13 python3.11; do
+        LOCK=$(lock_of "$PYTHON") && [ -f "$LOCK.txt" ] && break
+    done
+fi
+{ LOCK=$(lock_of "$PYTHON") && [ -f "$LOCK.txt" ]; } ||
+    fail "There is no Python 3.11 or 3.13 here, one of which Blender's module needs." \
+        "On Debian 12 and 13: apt-get install python3 python3-venv. Elsewhere: make PYTHON=/path/to/python3.13"
 
 if command -v dpkg-query >/dev/null; then
     missing=""
     for package in $PACKAGES; do
-        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+        # Since Debian 13 some names end in t64, for their 64-bit times.
+        dpkg-query -W -f '${Status}\n' "$package" "${package}t64" 2>/dev/null | grep -q 'ok installed' ||
             missing="$missing $package"
     done
     if [ -n "$missing" ]; then
@@ -55,7 +61,7 @@ wanted=$(cat pyproject.toml scripts/environment.sh "$LOCK.txt" "$LOCK-torch.txt"
 [ -z "${NEWEST:-}" ] || wanted="newest of $(date +%F), $wanted"
 [ -f "$STAMP" ] && [ "$(cat "$STAMP")" = "$wanted" ] && exit 0
 "$PYTHON" -m venv "$VENV" ||
-    fail "The virtual environment could not be made." "On Debian 12: apt-get install python3-venv"
+    fail "The virtual environment could not be made." "On Debian: apt-get install python3-venv"
 install() { "$VENV/bin/pip" install --disable-pip-version-check "$@"; }
 if [ -n "${NEWEST:-}" ]; then
     install --upgrade --upgrade-strategy eager -e '.[dev]'

@@ -11,7 +11,7 @@ export QT_PLUGIN_PATH="$plugins${QT_PLUGIN_PATH:+:$QT_PLUGIN_PATH}"
 export QT_QPA_GENERIC_PLUGINS="lampblack${QT_QPA_GENERIC_PLUGINS:+,$QT_QPA_GENERIC_PLUGINS}"
 command -v pencil2d >/dev/null || {
     echo "error: Pencil2D is not installed." >&2
-    echo "  On Debian 12: apt-get install pencil2d" >&2
+    echo "  On Debian: apt-get install pencil2d" >&2
     exit 1
 }
 exec pencil2d "$@"
