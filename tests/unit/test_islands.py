@@ -35,3 +35,13 @@ def test_islands_take_the_light_around_them_and_the_rest_stays() -> None:
     found = without_islands(speckled, step, step, 30)
     assert np.abs(found - amount).max() < 0.1
     assert without_islands(amount, step, step, 30) is amount
+
+
+def test_islands_that_cross_half_of_a_soft_step_go_too() -> None:
+    """The top of a wide hill that is only just too low."""
+    across, down = np.meshgrid(np.arange(60) - 30, np.arange(60) - 30)
+    hill = 0.46 - 0.1 * (np.hypot(across, down) / 30).astype(np.float32) ** 2
+    low, high = np.array([0.45], np.float32), np.array([0.55], np.float32)
+    assert (hill > low).any()
+    assert not (hill > high).any()
+    assert not (without_islands(hill, low, high, 400) > low).any()

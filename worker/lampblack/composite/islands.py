@@ -28,8 +28,8 @@ def without_islands(amount: Floats, lows: Floats, highs: Floats, smallest: int) 
     """
     found = amount
     for low, high in zip(lows, highs, strict=True):
-        # Also what nearly crosses the step: it would be seen as a ghost.
-        bright, dark = (high, low * (1 - MARGIN)), (low, high * (1 + MARGIN))
+        # Also what crosses half of a soft step, or nearly crosses it: it would be seen as a ghost.
+        bright, dark = (high, low, low * (1 - MARGIN)), (low, high, high * (1 + MARGIN))
         for level, lit in (
             *((level, True) for level in bright),
             *((level, False) for level in dark),
