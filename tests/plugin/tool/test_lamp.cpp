@@ -247,6 +247,9 @@ private Q_SLOTS:
         host.open();
         QVERIFY(host.mWindow.findChild<QLabel*>(QStringLiteral("lampblack.panel.blind")) != nullptr);
         QVERIFY(host.mLightMenu.contains(lamp.toolAction()));
+        QVERIFY(lamp.isActive());
+        lamp.toolAction()->trigger(); // the menu is the only way to it
+        QVERIFY(!lamp.isActive());
         lamp.toolAction()->trigger();
         QVERIFY(lamp.isActive());
         lamp.setPicture(image(Show::Lit));
