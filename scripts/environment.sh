@@ -30,7 +30,7 @@ fail() {
 # Blender's module is for some versions of Python only: those that have a file in requirements/.
 lock_of() { "$1" -c 'import sys; print("requirements/python%d.%d" % sys.version_info[:2])' 2>/dev/null; }
 if [ -z "${PYTHON:-}" ]; then
-    for PYTHON in python3 python3.13 python3.11; do
+    for PYTHON in python3.11 python3.13; do
         LOCK=$(lock_of "$PYTHON") && [ -f "$LOCK.txt" ] && break
     done
 fi

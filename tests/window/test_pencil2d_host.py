@@ -28,7 +28,7 @@ def in_use(window: Pencil2D) -> bool:
 
 def checked_tools(window: Pencil2D) -> list[str]:
     """The program's own tools whose button is down."""
-    names = (f"{name}Button" for name in ("pencil", "brush", "hand", "eraser", "eyedropper"))
+    names = (f"{name}Button" for name in ("pencil", "pen", "brush", "hand", "eraser", "eyedropper"))
     return [name for name in names if window.value(name, "checked")]
 
 
@@ -52,7 +52,7 @@ def test_the_lamp_stays_whatever_key_is_released(window: Pencil2D) -> None:
 
 def test_one_tool_is_in_use(window: Pencil2D) -> None:
     """By button and by key, also the tool that was in use before the lamp."""
-    for leave, tool in (("p", "pencilButton"), ("b", "brushButton"), ("", "pencilButton")):
+    for leave, tool in (("n", "pencilButton"), ("p", "penButton"), ("", "pencilButton")):
         light_up(window)
         assert checked_tools(window) == []
         if leave:
