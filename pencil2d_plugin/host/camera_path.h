@@ -27,10 +27,17 @@ QTransform canvasToImage(const QTransform& view, const QSize& size);
 /// The view of the camera whose layer is the current one, at the current frame.
 using CameraReader = std::function<std::optional<QTransform>()>;
 
-/// Read the path of the camera layer in `row`, by going to each frame from its first key to its last: how it
-/// moves between two keys is Pencil2D's own. The current frame and layer are restored. No value on failure,
-/// after which the current frame may be another one.
-std::optional<CameraPath> readCamera(const Parts& parts, const LayerRows& rows, int row,
+/// How cameras move between two keys: straight, as in Pencil2D 0.6; or by curves that only Pencil2D knows.
+enum class CameraMoves
+{
+    Straight,
+    Curved
+};
+
+/// Read the path of the camera layer in `row`, by going from its first key to its last: to each key, or to
+/// each frame if it moves in curves, which takes time. The current frame and layer are restored. No value on
+/// failure, after which the current frame may be another one.
+std::optional<CameraPath> readCamera(const Parts& parts, const LayerRows& rows, int row, CameraMoves moves,
                                      const CameraReader& read, const std::function<int()>& currentFrame);
 
 } // namespace lampblack

@@ -391,7 +391,8 @@ std::optional<CameraPath> Pencil2DHost::readShownCamera(int row)
         const auto matrices = mView.read();
         return matrices ? std::optional<QTransform>(matrices->view) : std::nullopt;
     };
-    return readCamera(mParts, mRows, row, read, [this] { return mTransport.currentFrame(); });
+    return readCamera(mParts, mRows, row, CameraMoves::Straight, read,
+                      [this] { return mTransport.currentFrame(); });
 }
 
 /// Pencil2D 0.7 draws its frame instead, while the tool that moves it is in use.
@@ -409,7 +410,7 @@ std::optional<CameraPath> Pencil2DHost::readDrawnCamera(int row)
     mPalette.workWith(mParts.action("actionMove"),
                       [&]
                       {
-                          path = readCamera(mParts, mRows, row, read,
+                          path = readCamera(mParts, mRows, row, CameraMoves::Curved, read,
                                             [this] { return mTransport.currentFrame(); });
                           mRows.select(rowBefore);
                       });

@@ -87,7 +87,8 @@ class LayerPictures:
     def _read(self, file: str, of: str) -> Picture:
         name = f"{file} of {of}"
         data = self.archive.read(file)
-        if self._digests.get(file, digest(data)) != digest(data):
+        known = self._digests.get(file)
+        if known is not None and known != digest(data):
             raise ProjectError(
                 f"{name} was changed while the shot was rendered.", "Render the shot again."
             )
