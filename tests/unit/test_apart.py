@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 from dataclasses import replace
 from pathlib import Path
@@ -224,13 +225,17 @@ def test_an_openraster_file_is_as_its_specification_says(tmp_path: Path) -> None
     assert ora_stamp(path) == "stamp"
     assert path.read_bytes()[30:54] == b"mimetypeimage/openraster"
     with zipfile.ZipFile(path) as archive:
+
+        def picture(name: str) -> NDArray[np.uint8]:
+            return np.asarray(Image.open(io.BytesIO(archive.read(name))))
+
         assert archive.infolist()[0].compress_type == zipfile.ZIP_STORED
-        merged = np.asarray(Image.open(archive.open("mergedimage.png")))
-        thumbnail = Image.open(archive.open("Thumbnails/thumbnail.png"))
+        merged = picture("mergedimage.png")
+        thumbnail = picture("Thumbnails/thumbnail.png")
         image = ElementTree.fromstring(archive.read("stack.xml"))
         found = []
         for element in image.findall("stack/layer"):
-            part = np.asarray(Image.open(archive.open(element.attrib["src"])))
+            part = picture(element.attrib["src"])
             whole = np.zeros((*SIZE, 4), np.uint8)
             left, top = int(element.attrib["x"]), int(element.attrib["y"])
             whole[top : top + part.shape[0], left : left + part.shape[1]] = part
@@ -240,7 +245,7 @@ def test_an_openraster_file_is_as_its_specification_says(tmp_path: Path) -> None
     assert operators[-3:] == ["svg:multiply", "svg:multiply", "svg:src-over"]
     assert set(operators[:-3]) == {"svg:plus"}
     assert np.array_equal(merged, stages.lit[-1])
-    assert max(thumbnail.size) <= 256
+    assert max(thumbnail.shape) <= 256
     for ours, (_, _, layer) in zip(found, layers, strict=True):
         assert np.array_equal(ours, layer)
     # What a reader of such files shows is the baked picture.
