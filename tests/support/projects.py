@@ -54,14 +54,19 @@ def image(frame: int, source: str, left: int = 0, top: int = 0, opacity: float =
 
 
 def document(
-    layers: Sequence[str], *, camera: str = STILL, size: tuple[int, int] = (200, 160)
+    layers: Sequence[str],
+    *,
+    camera: str = STILL,
+    size: tuple[int, int] = (200, 160),
+    version: str = "0.6.6",
 ) -> str:
+    path = "" if version.startswith("0.6") else ' showPath="1"'
     return (
         "<!DOCTYPE PencilDocument><document><projectdata>"
         '<fps value="12"/><isRangedPlayback value="false"/><markOutFrame value="99"/>'
         '</projectdata><object><layer id="1" type="5" name="Camera" visibility="1" '
-        f'width="{size[0]}" height="{size[1]}">{camera}</layer>{"".join(layers)}</object>'
-        "<version>0.6.6</version></document>"
+        f'width="{size[0]}" height="{size[1]}"{path}>{camera}</layer>{"".join(layers)}</object>'
+        f"<version>{version}</version></document>"
     )
 
 
@@ -95,6 +100,16 @@ def walk(folder: Path, cycle: list[int]) -> Path:
     }
     xml = document([layer(2, "ball", keys)], size=(96, 96))
     return write_project(folder / "walk.pclx", xml, pictures)
+
+
+def installed_version() -> str:
+    """What the installed Pencil2D calls itself: 0.6.6, or Debian's 0.7.0 0.0.0.0."""
+    ran = subprocess.run(
+        ["pencil2d", "--version"],
+        env={**os.environ, "QT_QPA_PLATFORM": "offscreen"},
+        check=True, capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+    return ran.stdout.split()[-1]
 
 
 def exported(project: Path, first: int, last: int) -> list[Picture]:

@@ -15,8 +15,6 @@ from lampblack.choices import LayerRole
 from lampblack.errors import LampblackWarning, ProjectError
 from lampblack.project import read_project
 from lampblack.project.archive import MAX_XML_BYTES
-from lampblack.project.camera_layer import Camera
-from lampblack.project.easing import CURVES, eased
 from lampblack.project.shot import ProjectShot
 from lampblack.scene import default_scene
 from support.command_line import files
@@ -37,10 +35,6 @@ from support.projects import (
 Picture = NDArray[np.uint8]
 PAN = (
     '<camera frame="1" r="0" s="1" dx="0" dy="0"/><camera frame="5" r="0" s="1" dx="-41" dy="18"/>'
-)
-MOVES = (
-    '<camera frame="1" r="0" s="1" dx="10" dy="0"/>'
-    '<camera frame="5" r="30" s="1.7" dx="-20" dy="8"/>'
 )
 
 
@@ -97,97 +91,6 @@ def test_frames_are_those_that_pencil2d_exports(
     assert len(ours) == 5
     for mine, truth in zip(ours, theirs, strict=True):
         assert difference(mine, truth).max() <= 2
-
-
-@needs_pencil2d
-def test_a_camera_that_turns_and_zooms_shows_what_pencil2d_shows(tmp_path: Path) -> None:
-    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=MOVES), FILES)
-    for mine, truth in zip(unlit(shot_of(path, ROLES)), exported(path, 1, 5), strict=True):
-        off = difference(mine, truth)
-        # Edges are smoothed in another order; what is between them agrees.
-        assert np.mean(off > 3) < 0.02
-        assert off.mean() < 1.5
-
-
-NEW = "<version>v0.7.2</version>"
-
-
-def camera_of(tmp_path: Path, keys: str, version: str = NEW) -> Camera:
-    xml = document([BALL], camera=keys).replace("<version>0.6.6</version>", version)
-    project, _ = read_project(write_project(tmp_path / "c.pclx", xml, FILES))
-    return project.cameras[0]
-
-
-def shift(camera: Camera, frame: int) -> tuple[float, float]:
-    """Where the middle of the canvas is in the picture, from its middle."""
-    a, b, c, d, e, f = camera.at(frame)
-    return a * 100 + b * 80 + c - 100, d * 100 + e * 80 + f - 80
-
-
-@pytest.mark.parametrize(
-    "version", [NEW, "<version>0.0.0.0</version>", "<version>0.8.0</version>", ""]
-)
-def test_cameras_of_new_projects_turn_and_grow_evenly(tmp_path: Path, version: str) -> None:
-    """Debian's 0.7.0 saves no version that tells, but an attribute that older ones do not."""
-    keys = '<camera frame="1"/><camera frame="5" r="90" s="3"/>'
-    camera = camera_of(tmp_path, keys, version) if "0.0" not in version and version else None
-    if camera is None:
-        xml = document([BALL], camera=keys).replace("<version>0.6.6</version>", version)
-        xml = xml.replace('height="160"', 'height="160" showPath="1"')
-        project, _ = read_project(write_project(tmp_path / "c.pclx", xml, FILES))
-        camera = project.cameras[0]
-    a, b, _, d, e, _ = camera.at(3)
-    half = 2 * np.sqrt(0.5)
-    assert (a, b, d, e) == pytest.approx((half, -half, half, half))
-
-
-def test_a_camera_of_an_old_project_mixes_matrices(tmp_path: Path) -> None:
-    keys = '<camera frame="1"/><camera frame="5" r="90" s="3"/>'
-    a, b, _, d, e, _ = camera_of(tmp_path, keys, "<version>0.6.6</version>").at(3)
-    assert (a, b, d, e) == pytest.approx((0.5, -1.5, 1.5, 0.5))
-
-
-def test_a_full_turn_is_a_turn(tmp_path: Path) -> None:
-    camera = camera_of(tmp_path, '<camera frame="1"/><camera frame="5" r="360"/>')
-    assert camera.at(3)[0] == pytest.approx(-1)
-    assert camera.at(2)[1] == pytest.approx(-1)
-
-
-@pytest.mark.parametrize(
-    ("easing", "places"), [(0, (10, 20, 30)), (1, (2.5, 10, 22.5)), (3, (5, 20, 35))]
-)
-def test_cameras_ease(tmp_path: Path, easing: int, places: tuple[float, ...]) -> None:
-    """Measured in Pencil2D 0.7.0, to whole pixels: 3, 10, 23 and 5, 20, 35."""
-    keys = f'<camera frame="1" easing="{easing}"/><camera frame="5" dx="40"/>'
-    camera = camera_of(tmp_path, keys)
-    assert [shift(camera, n)[0] for n in (2, 3, 4)] == pytest.approx(places)
-
-
-def test_cameras_follow_a_curved_path(tmp_path: Path) -> None:
-    """Measured in Pencil2D 0.7.0, to whole pixels: -9, -5, 11 and -22, -30, -22."""
-    keys = '<camera frame="1" pathCPX="30" pathCPY="60"/><camera frame="5" dx="40"/>'
-    camera = camera_of(tmp_path, keys)
-    places = [shift(camera, n) for n in (2, 3, 4)]
-    assert np.allclose(places, [(-8.75, -22.5), (-5, -30), (11.25, -22.5)])
-
-
-def test_easing_curves_are_those_of_qt() -> None:
-    """Values at a quarter, computed by QEasingCurve of Qt 5.15."""
-    quarter = {
-        1: 0.0625, 2: 0.4375, 4: 0.375, 5: 0.015625, 9: 0.00390625, 13: 0.000976562,
-        17: 0.076120467, 21: 0.004524272, 22: 0.824046528, 23: 0.015125, 25: 0.031754163,
-        29: -0.005524272, 33: -0.064136563, 35: -0.099681841, 37: 0.02734375, 40: 0.265625,
-    }  # fmt: skip
-    assert {n: eased(n, 0.25) for n in quarter} == pytest.approx(quarter, abs=1e-6)
-    assert set(CURVES) == set(range(1, 41))
-    for number in CURVES:
-        assert eased(number, 0) == pytest.approx(0, abs=1e-3)
-        assert eased(number, 1) == pytest.approx(1, abs=1e-3)
-
-
-def test_an_unknown_easing_is_told(tmp_path: Path) -> None:
-    with pytest.warns(LampblackWarning, match="number 99"):
-        camera_of(tmp_path, '<camera frame="1" easing="99"/><camera frame="5" dx="40"/>')
 
 
 def test_a_frame_that_the_camera_flattens_is_empty(tmp_path: Path) -> None:
@@ -469,7 +372,7 @@ def test_files_that_are_no_projects_are_told(tmp_path: Path) -> None:
 
 
 def test_reading_a_project_writes_nothing_beside_it(tmp_path: Path) -> None:
-    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=MOVES), FILES)
+    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=PAN), FILES)
     before = path.read_bytes()
     unlit(shot_of(path, ROLES))
     assert files(tmp_path) == {"walk.pclx"}
