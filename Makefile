@@ -76,7 +76,7 @@ test-slow: test
 	$(BIN)/pytest -m slow
 
 test-chaos: build-dev
-	LAMPBLACK_CHAOS_MINUTES=60 $(BIN)/pytest -m slow -s tests/render/test_chaos.py
+	LAMPBLACK_CHAOS_MINUTES=60 $(BIN)/pytest -m slow -o junit_family=xunit1 --junitxml=build/chaos.xml tests/render/test_chaos.py
 
 IN_PENCIL2D = lampblack lampblackprobe host_gates host_view_and_camera host_unseen_dialogs host_in_pencil2d
 
