@@ -10,13 +10,11 @@ import numpy as np
 from PIL import Image
 
 from ..cache import digest
-from .blend import Blend, blended
+from .blend import Blend, blend_onto
 from .document import Group, Key, Layer
 from .layer_pictures import Floats, LayerPictures, Picture, Place
 from .vector import PALETTE
 
-_ROWS = 256
-"""Rows that are blended at a time, to save memory."""
 _EVERYWHERE = ("dst-in", "dst-atop")
 """Ways of compositing that change what is beyond the edges of the upper picture, too."""
 
@@ -124,12 +122,8 @@ def _lay_on(
 ) -> None:
     """Blend ``picture`` with ``canvas``, with its corner at ``place``."""
     left, top = place
-    most = 255 if picture.dtype == np.uint8 else 1
-    for row in range(0, picture.shape[0], _ROWS):
-        front = np.divide(picture[row : row + _ROWS], most, dtype=np.float32)
-        rows = slice(top + row, top + row + front.shape[0])
-        part = canvas[rows, left : left + picture.shape[1]]
-        part[:] = blended(part, front, blend, opacity, clipped=clipped)
+    part = canvas[top : top + picture.shape[0], left : left + picture.shape[1]]
+    blend_onto(part, picture, blend, opacity, clipped=clipped)
 
 
 def _mixed(before: Floats, after: Floats, share: float | Floats) -> Floats:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import io
 import logging
+import threading
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +33,8 @@ MAX_ALLOCATED = 4 << 30
 
 Picture = NDArray[np.uint8]
 Floats = NDArray[np.float32]
+
+_READING = threading.Lock()
 
 # What it says is for programmers.
 logging.getLogger("psd_tools").addHandler(logging.NullHandler())
@@ -59,7 +63,7 @@ class PsdFile:
         return f"{self._identity} {name}".encode()
 
     def picture(self, name: str, data: bytes, subject: str) -> Picture:
-        with understood(_damaged(self.path)):
+        with understood(_damaged(self.path)), _strictly():
             if name == MERGED:
                 return self._in_srgb(_merged(self._psd), subject)
             layer = self._stored[name]
@@ -82,8 +86,6 @@ def open_psd(path: Path) -> tuple[PSDImage, str]:
     Raises:
         ProjectError: there is none, it is no file of Photoshop, is damaged or too large.
     """
-    # A channel that cannot be decoded would else be black.
-    warnings.filterwarnings("error", category=PSDDecompressionWarning)
     try:
         data = read_bounded(path, MAX_BYTES)
     except FileNotFoundError as error:
@@ -97,8 +99,17 @@ def open_psd(path: Path) -> tuple[PSDImage, str]:
             str(error),
         ) from error
     limits = ParseLimits(max_total_bytes=4 * MAX_BYTES)
-    with understood(_damaged(path)):
+    with understood(_damaged(path)), _strictly():
         return PSDImage.open(io.BytesIO(data), MAX_ALLOCATED, limits), digest(data)
+
+
+@contextmanager
+def _strictly() -> Iterator[None]:
+    """A channel that cannot be decoded is an error here; it would else be black. Filters of
+    warnings are for the whole process, so only one thread reads at a time."""
+    with _READING, warnings.catch_warnings():
+        warnings.simplefilter("error", PSDDecompressionWarning)
+        yield
 
 
 def has_layers(psd: PSDImage) -> bool:
@@ -131,6 +142,11 @@ def _pixels(layer: Layer) -> Image.Image:
         levels = [float(layer.data.get(key, 0)) for key in (b"Rd  ", b"Grn ", b"Bl  ")]
         colour = np.clip(np.rint(levels), 0, 255).astype(np.uint8)
         return Image.fromarray(np.full((height, width, 4), (*colour, 255), np.uint8))
+    if layer._psd.depth == 8:  # already bytes
+        image = layer.topil(apply_icc=False)
+        if image is None:
+            raise ValueError("no pixels")
+        return image.convert("RGBA")
     colour = _levels(layer.numpy("color"))
     shape = layer.numpy("shape")
     alpha = np.full((height, width, 1), 255, np.uint8) if shape is None else _levels(shape)
