@@ -18,4 +18,4 @@ Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
 def compiled(kernel: Kernel) -> Kernel:
     """``kernel`` compiled by numba at its first call, and cached on disk. It releases the GIL."""
-    return cast(Kernel, njit(cache=True, nogil=True)(kernel))
+    return cast(Kernel, njit(cache=True, nogil=True, error_model="numpy")(kernel))

@@ -87,7 +87,7 @@ class FigureLight(NamedTuple):
             light.glossy if (smooth & LIT == GLOSSY).any() else UNIT,
             light.sheen if (smooth & LIT == LIT).any() else UNIT,
             contact is not None,
-            UNIT if contact is None else contact,
+            UNIT[..., 0] if contact is None else np.ascontiguousarray(contact[..., 0]),
         )
 
 

@@ -4,6 +4,7 @@ away from the light."""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,6 +70,9 @@ class Form:
     def within(self, area: Box) -> Form:
         """The part of the surface in ``area``, in pixels of the drawing, in few elements. Its size
         is that of the area."""
+        return _part(self, area)
+
+    def _sampled(self, area: Box) -> Form:
         x, y, width, height = area
         across, down = self.size[0] / self.rise.shape[1], self.size[1] / self.rise.shape[0]
         step = max(across, down, max(width, height) / SAMPLED)
@@ -93,22 +97,38 @@ class Form:
         Args:
             corner: x and y of the form in pixels of ``scene``.
         """
-        rows, columns = self.rise.shape
-        x = corner[0] + (np.arange(columns, dtype=np.float32) + 0.5) * (self.size[0] / columns)
-        y = corner[1] + (np.arange(rows, dtype=np.float32) + 0.5) * (self.size[1] / rows)
-        relief = np.float32(scene.relief_scale)
-        places = np.dstack([*np.meshgrid(x, y), relief * self.rise]).astype(np.float32)
-        normals = np.dstack(
-            [-relief * self.slopes[..., 0], relief * self.slopes[..., 1], np.ones_like(self.rise)]
-        ).astype(np.float32)
-        normals /= np.sqrt(np.square(normals).sum(axis=2, keepdims=True))
-        total = np.zeros((rows, columns, 3), np.float32)
+        places, normals = _laid_out(self, corner, scene.relief_scale)
+        total = np.zeros(normals.shape, np.float32)
         for light, shines in zip(scene.lights, shining(scene.lights), strict=True):
             if shines and Link.of(light) == link:
                 weight = hex_linear(light.colour) * np.float32(light.power)
                 ways = towards(light, scene.canvas, places)
                 total += weight * open_light(light, scene.canvas, normals, ways)[..., None]
         return brightest_of(total)
+
+
+# While colours and powers change, or a light is dragged, these stay.
+@lru_cache(maxsize=8)
+def _part(form: Form, area: Box) -> Form:
+    return form._sampled(area)
+
+
+@lru_cache(maxsize=8)
+def _laid_out(
+    form: Form, corner: tuple[float, float], relief_scale: float
+) -> tuple[Floats, Floats]:
+    """(h, w, 3) each, where the elements of ``form`` are and which way they face, as
+    ``towards`` and ``open_light`` take them."""
+    rows, columns = form.rise.shape
+    x = corner[0] + (np.arange(columns, dtype=np.float32) + 0.5) * (form.size[0] / columns)
+    y = corner[1] + (np.arange(rows, dtype=np.float32) + 0.5) * (form.size[1] / rows)
+    relief = np.float32(relief_scale)
+    places = np.dstack([*np.meshgrid(x, y), relief * form.rise]).astype(np.float32)
+    normals = np.dstack(
+        [-relief * form.slopes[..., 0], relief * form.slopes[..., 1], np.ones_like(form.rise)]
+    ).astype(np.float32)
+    normals /= np.sqrt(np.square(normals).sum(axis=2, keepdims=True))
+    return places, normals
 
 
 def _filled(plane: Floats, known: NDArray[np.bool_], step: int) -> Floats:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..colour import hex_linear
+from ..compiled import compiled
 from ..scene import AreaLight, Scene, shining
 from .linking import Link
 from .resample import Box
@@ -63,17 +65,36 @@ def reach_of_light(
     """(h, w) the full light at each element of ``area``: half way between that in the middle of the
     canvas and that at its own distance. A lamp lights what is near it, but tones follow the form
     more than the distance."""
-    height, width = size
-    x = area[0] + (np.arange(width, dtype=np.float32) + 0.5) * (area[2] / width)
-    y = area[1] + (np.arange(height, dtype=np.float32)[:, None] + 0.5) * (area[3] / height)
-    middle = scene.canvas.width / 2, scene.canvas.height / 2
     found = np.full(size, 1e-6, np.float32)
+    middle = scene.canvas.width / 2, scene.canvas.height / 2
+    height, width = size
     for light, (strength, _) in by_light(scene, link):
+        if light.kind == "sun":
+            np.maximum(found, np.float32(strength), out=found)
+            continue
         far = (middle[0] - light.x) ** 2 + (middle[1] - light.y) ** 2 + light.z**2
-        near = (x - light.x) ** 2 + (y - light.y) ** 2 + light.z**2
-        fall = 1.0 if light.kind == "sun" else np.sqrt(far / np.maximum(near, 0.02 * far + 1))
-        np.maximum(found, strength * fall, out=found)
+        _reach(
+            np.float32(area[0] - light.x), np.float32(area[2] / width),
+            np.float32(area[1] - light.y), np.float32(area[3] / height),
+            np.float32(light.z**2), np.float32(far), np.float32(strength), found,
+        )  # fmt: skip
     return found
+
+
+@compiled
+def _reach(
+    left: Any, across: Any, top: Any, down: Any, above: Any, far: Any, strength: Any, found: Any
+) -> None:
+    """Raise ``found`` to the reach of a lamp. ``left`` and ``top`` lead from it to the corner."""
+    half, least = np.float32(0.5), np.float32(0.02) * far + np.float32(1)
+    for row in range(found.shape[0]):
+        y = top + (row + half) * down
+        high = y * y + above
+        for column in range(found.shape[1]):
+            x = left + (column + half) * across
+            near = x * x + high
+            fall = strength * np.sqrt(far / (near if near > least else least))
+            found[row, column] = fall if fall > found[row, column] else found[row, column]
 
 
 def hue_of_lights(scene: Scene, link: Link | None = None) -> Floats:

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compiled import compiled
-from ..drawing.morphology import highest
 
 MOST_ISLANDS = 60
 MARGIN = 0.25
 """Islands are sought a little beyond a threshold too, by this share of it."""
+SHORE, AROUND = 1, 3
+"""How far beside an island its shore reaches, and the light that it takes, in elements."""
 
 Floats = NDArray[np.float32]
 Runs = NDArray[np.int32]
@@ -53,20 +54,34 @@ def small_regions(plane: Floats, level: np.float32, smallest: int, *, above: boo
     return [runs[regions == number] for number in topmost]
 
 
-def _flood(amount: Floats, island: Runs) -> None:
-    """Give ``island`` the light around it."""
+@compiled
+def _flood(amount: Any, island: Any) -> None:
+    """Give ``island``, and the elements beside it, the light around them."""
     rows, columns = amount.shape
-    top, left = max(0, island[:, 0].min() - 3), max(0, island[:, 1].min() - 3)
-    bottom = min(rows, island[:, 0].max() + 4)
-    right = min(columns, island[:, 2].max() + 3)
-    inside = np.zeros((bottom - top, right - left), np.bool_)
-    for row, start, stop in island:
-        inside[row - top, start - left : stop - left] = True
-    shore = highest(inside, 1)
-    around = highest(shore, 2) & ~shore
-    if around.any():
-        window = amount[top:bottom, left:right]
-        window[shore] = np.median(window[around])
+    top, left = max(0, island[:, 0].min() - AROUND), max(0, island[:, 1].min() - AROUND)
+    bottom = min(rows, island[:, 0].max() + AROUND + 1)
+    right = min(columns, island[:, 2].max() + AROUND)
+    window = amount[top:bottom, left:right]
+    place = np.zeros(window.shape, np.uint8)
+    for value, reach in ((AROUND, AROUND), (SHORE, SHORE)):
+        for run in range(len(island)):
+            row, start, stop = island[run, 0] - top, island[run, 1] - left, island[run, 2] - left
+            for near in range(max(row - reach, 0), min(row + reach + 1, bottom - top)):
+                place[near, max(start - reach, 0) : min(stop + reach, right - left)] = value
+    around = np.empty(place.size, np.float32)
+    count = 0
+    for row in range(place.shape[0]):
+        for column in range(place.shape[1]):
+            if place[row, column] == AROUND:
+                around[count] = window[row, column]
+                count += 1
+    if count == 0:
+        return
+    light = np.median(around[:count])
+    for row in range(place.shape[0]):
+        for column in range(place.shape[1]):
+            if place[row, column] == SHORE:
+                window[row, column] = light
 
 
 @compiled

@@ -32,21 +32,6 @@ def sample(picture: Any, u: float, v: float, channel: int) -> Any:
 
 
 @compiled
-def colour_at(picture: Any, u: float, v: float, found: Any, row: int) -> None:
-    """``sample`` of all three channels, written to row ``row`` of ``found``, (n, 3)."""
-    height, width = picture.shape[0], picture.shape[1]
-    x = min(max(u * width - 0.5, 0.0), width - 1.0)
-    y = min(max(v * height - 0.5, 0.0), height - 1.0)
-    x0, y0 = int(x), int(y)
-    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
-    s, t = np.float32(x - x0), np.float32(y - y0)
-    for c in range(3):
-        above = picture[y0, x0, c] + s * (picture[y0, x1, c] - picture[y0, x0, c])
-        below = picture[y1, x0, c] + s * (picture[y1, x1, c] - picture[y1, x0, c])
-        found[row, c] = above + t * (below - above)
-
-
-@compiled
 def level(picture: Any, u: float, v: float) -> Any:
     """``sample`` of a picture with one channel."""
     height, width = picture.shape

@@ -23,6 +23,7 @@ from .illumination import Illumination
 from .islands import without_islands
 from .linking import Link
 from .resample import Band, Box, enlarge
+from .scan import levels_of_row, step_of
 from .shadowed import cast_shadow, reflected_into_shade
 from .spline import refined
 from .sums import add_up, brightest_of
@@ -242,55 +243,13 @@ def _tint(
 
 
 @compiled
-def step_reach(amount: Any, across: float, down: float) -> float:
-    """How far the light at a pixel may be from that of the four elements around it, where its step
-    is anti-aliased, as a share of their range."""
-    return float(1.5 * max(amount.shape[1] * across, amount.shape[0] * down, 1.0))
-
-
-@compiled
-def step_share(
-    amount: Any, u: float, v: float, across: float, down: float, lows: Any, highs: Any
-) -> Any:
-    """The tone at (u, v) in 0..1 of ``amount``; one pixel is ``across`` wide and ``down`` high.
-    Steps are at least as wide as a pixel, so that their edges are anti-aliased."""
-    height, width = amount.shape
-    x = min(max(u * width - 0.5, 0.0), width - 1.0)
-    y = min(max(v * height - 0.5, 0.0), height - 1.0)
-    x0, y0 = int(x), int(y)
-    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
-    a, b, c, d = amount[y0, x0], amount[y0, x1], amount[y1, x0], amount[y1, x1]
-    # Most pixels are far from any step.
-    least, most = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
-    reach = np.float32(step_reach(amount, across, down)) * (most - least)
-    if most + reach < lows[0]:
-        return np.float32(0)
-    if least - reach > highs[-1]:
-        return np.float32(1)
-    s, t = np.float32(x - x0), np.float32(y - y0)
-    above, below = a + s * (b - a), c + s * (d - c)
-    value = above + t * (below - above)
-    slope_x = np.float32(width * across) * ((b - a) + t * ((d - c) - (b - a)))
-    slope_y = np.float32(height * down) * (below - above)
-    pixel = np.float32(0.75) * np.sqrt(slope_x * slope_x + slope_y * slope_y)
-    total = np.float32(0)
-    for step in range(len(lows)):
-        middle = np.float32(0.5) * (lows[step] + highs[step])
-        half = max(np.float32(0.5) * (highs[step] - lows[step]), pixel, np.float32(1e-4))
-        share = min(max((value - middle) / half, np.float32(-1)), np.float32(1))
-        share = np.float32(0.5) + np.float32(0.5) * share
-        total += share * share * (np.float32(3) - np.float32(2) * share)
-    return total / np.float32(len(lows))
-
-
-@compiled
 def _shares(
     amount: Any, lows: Any, highs: Any, top: int, bottom: int, height: int, shares: Any
 ) -> None:
-    width = shares.shape[1]
+    width, rows, columns = shares.shape[1], amount.shape[0], amount.shape[1]
+    across, down = np.float32(columns / width), np.float32(rows / height)
     for row in range(top, bottom):
+        levels = levels_of_row(amount, (row + 0.5) / height, 0.0, 1.0)
         for column in range(width):
-            shares[row - top, column] = step_share(
-                amount, (column + 0.5) / width, (row + 0.5) / height, 1 / width, 1 / height,
-                lows, highs,
-            )  # fmt: skip
+            at = (column + 0.5) / width
+            shares[row - top, column] = step_of(levels, at, across, down, lows, highs)
