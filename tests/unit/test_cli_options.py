@@ -14,6 +14,7 @@ import typer
 from lampblack.choices import (
     ApartKind,
     BodyChoice,
+    DeviceChoice,
     FileFormat,
     FrameLayers,
     LayerRole,
@@ -119,6 +120,7 @@ def some_settings(random: random.Random) -> RenderSettings:
         camera=random.choice(texts),
         layers=random.choice(get_args(FrameLayers)),
         apart=random.choice(get_args(ApartKind)),
+        device=random.choice(get_args(DeviceChoice)),
         steady=random.random() < 0.5,
         again=random.random() < 0.5,
     )

@@ -49,6 +49,12 @@ on it."""
 LookChoice = Literal["scene", "smooth", "cel"]
 """How a flat colour is lit: as the scene is, in smooth gradients, or in tones."""
 
+DeviceKind = Literal["cpu", "cuda", "optix", "hip", "oneapi", "metal"]
+"""What traces light: the processor, or a graphics card by one of Cycles' ways to it."""
+
+DeviceChoice = Literal["auto", "cpu", "cuda", "optix", "hip", "oneapi", "metal"]
+"""What is to trace light: ``auto`` is a graphics card that was found right, else the processor."""
+
 DEFAULT_GRIDS = 0
 """Grids of tiles whose predicted normals are averaged; 0 predicts the whole character at once."""
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cache import ArrayCache
-from .choices import GlowName, PipelineOptions
+from .choices import DeviceChoice, GlowName, PipelineOptions
 from .composite import composite
 from .drawing import Drawing, DrawingPlanes
 from .normals.temporal.temporal_filter import LazyNeighbours
@@ -58,6 +58,7 @@ class Pipeline:
         predictor: None is the shipped network.
         renderer: None is Cycles in a child process.
         niceness: of the child process, 0 to 19.
+        device: what it traces on.
 
     Attributes:
         surfaces: makes normals and heights.
@@ -71,9 +72,10 @@ class Pipeline:
         predictor: Predictor | None = None,
         renderer: Renderer | None = None,
         niceness: int = 0,
+        device: DeviceChoice = "cpu",
     ) -> None:
         self.surfaces = SurfaceMaker(cache, options or PipelineOptions(), predictor)
-        self.renderer: Renderer = renderer or RenderChild(niceness)
+        self.renderer: Renderer = renderer or RenderChild(niceness, device)
         self._light_passes = LightPassCache()
 
     def __enter__(self) -> Self:

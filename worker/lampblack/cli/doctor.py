@@ -20,7 +20,8 @@ from .console import EXIT_FAILED, print_error
 def doctor() -> None:
     """Check this installation part by part.
 
-    The last check renders a tiny picture.
+    Graphics cards are tried again, with a test picture on each. The last check renders a tiny
+    picture.
 
     Example: lampblack doctor
     """
@@ -29,6 +30,7 @@ def doctor() -> None:
         "machine": _machine,
         "temporary folder": _temporary_folder,
         "network": _network,
+        "graphics cards": _cards,
         "Cycles": _cycles,
     }
     failed = False
@@ -73,6 +75,23 @@ def _network() -> str:
         raise LampblackError("The network predicts numbers that are not finite.", "Reinstall.")
     size = Path(shipped_weights()).stat().st_size / 2**20
     return f"{predictor.card.architecture}, {size:.1f} MiB of weights"
+
+
+def _cards() -> str:
+    from ..render.survey import survey
+
+    found = survey()
+    if not found:
+        return "none found; the processor traces"
+    return "".join(
+        f"\n  {one.card.label}: "
+        + (
+            ("right" if one.verdict.denoises else "right, but the processor denoises")
+            if one.verdict.outcome == "right"
+            else f"not used: {one.verdict.why}"
+        )
+        for one in found
+    )
 
 
 def _cycles() -> str:

@@ -18,7 +18,7 @@ from .outputs import check_suffix
 
 @with_settings(
     *("input", "scene", "quality", "sheet", "frames", "format", "apart", "character", "line"),
-    *("background", "layer_body", "camera", "steady", "mask", "ink"),
+    *("background", "layer_body", "camera", "steady", "mask", "ink", "device"),
 )
 def job(
     settings: RenderSettings,
@@ -46,7 +46,8 @@ def job(
 ) -> None:
     """Write an OpenJD job template that lights a shot.
 
-    Its tasks are lampblack render commands, which may run anywhere and more than once. Write the
+    Its tasks are lampblack render commands, which may run anywhere and more than once. All trace on
+    one kind of device: the processor, unless --device names another. Write the
     template beside the project: paths outside its folder must be given when the job is submitted.
 
     Example: lampblack job walk.pclx -o job.yaml --to /shots/walk.%04d.exr --quality final

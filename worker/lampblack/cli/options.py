@@ -127,6 +127,11 @@ OPTIONS: dict[str, Any] = {
         help="How normals become a surface: direct finds the exact minimum, adam is the paper's "
         "gradient descent.",
     ),
+    "device": typer.Option(
+        "--device",
+        help="What traces the light. auto is a graphics card on which a test picture came out "
+        "right, else the processor.",
+    ),
     "again": typer.Option("--again", help="Render frames again whose files are up to date."),
 }
 """In the order of ``--help``, by the field of ``RenderSettings``; ``input``, ``frame``,

@@ -65,6 +65,7 @@ def render(
     from ..finals.resolve import resolve_job
     from ..finals.sheet import cells_of
     from ..pipeline import Pipeline
+    from ..render.client import CARD_LOST, RenderChild
 
     job = resolve_job(settings)
     columns = 0 if settings.sheet is None else cells_of(settings.sheet)[0]
@@ -75,7 +76,9 @@ def render(
 
         class Report(RenderListener):
             def on_renderer_lost(self, frame: ShotFrame, error: RenderError) -> None:
-                say(f"{frame.name}: {error.what} It is started again. {error.details[:200]}")
+                again = error.remedy if error.remedy == CARD_LOST else "It is started again."
+                say(f"{frame.name}: {error.what} {again}")
+                say(f"  details: {error.details.strip().rpartition(chr(10))[2][:200]}", "dim")
 
             def on_frame(
                 self, frame: ShotFrame, error: LampblackError | None, *, kept: bool
@@ -88,7 +91,9 @@ def render(
             certificates = Certificates(tls_ca, tls_cert, tls_key)
             outcome = light_on_cluster(settings, job, cluster, certificates, Report())
         else:
-            with Pipeline(surface_cache(), job.options) as pipeline:
+            renderer = RenderChild(device=job.device)
+            with Pipeline(surface_cache(), job.options, renderer=renderer) as pipeline:
+                renderer.require_device()
                 outcome = render_shot(job, pipeline, listener=Report())
     overviews.save(job, outcome.done)
     _summarise(job, outcome)
@@ -104,6 +109,9 @@ def _summarise(job: ResolvedJob, outcome: Outcome) -> None:
         f"{len(outcome.done)} of {len(job.frames)} frames are in "
         f"{job.targets.folder.absolute()}{kept}."
     )
+    if len(outcome.devices) > 1:
+        counts = ", ".join(f"{number} on {device}" for device, number in outcome.devices.items())
+        say(f"Frames of several devices: {counts}. To have one: --device cpu, or another of them.")
     if outcome.failed:
         names = ", ".join(frame.name for frame, _ in outcome.failed)
         say(f"Failed: {names}", "bold red")

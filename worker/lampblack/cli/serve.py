@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ..choices import DeviceChoice
+
 
 def serve(
     connection: Annotated[
@@ -24,6 +26,14 @@ def serve(
             "--parent-pid", metavar="PID", min=1, help="Process to end with: the drawing program."
         ),
     ] = None,
+    device: Annotated[
+        DeviceChoice,
+        typer.Option(
+            "--device",
+            help="What traces the light. auto is a graphics card on which a test picture came out "
+            "right, else the processor.",
+        ),
+    ] = "auto",
 ) -> None:
     """Serve a drawing program with previews and renders.
 
@@ -35,4 +45,4 @@ def serve(
 
     # The drawing program has priority when both need a processor.
     os.nice(5)
-    serve_forever(connection, parent_pid)
+    serve_forever(connection, parent_pid, device)

@@ -56,7 +56,7 @@ def turntable(
         check_suffix(output, ".gif")
     keep_inputs(output, settings.inputs)
     shot = resolve_shot(settings)
-    with Pipeline(surface_cache()) as pipeline, progress_bar() as bar:
+    with Pipeline(surface_cache(), device=settings.device) as pipeline, progress_bar() as bar:
         pipeline.renderer.start()
         shown = first_frame(shot, pipeline)
         prepared = shown.prepare(pipeline)

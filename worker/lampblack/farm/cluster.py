@@ -19,14 +19,16 @@ from urllib.parse import urlsplit
 import msgspec
 
 from ..cache import surface_cache
-from ..choices import PipelineOptions
+from ..choices import DeviceChoice, PipelineOptions
 from ..errors import LampblackError, OutputError
 from ..finals.render_shot import Outcome, RenderListener, render_shot
 from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.settings import RenderSettings
 from ..finals.targets import Targets
 from ..pipeline import Pipeline
+from ..render import RenderChild
 from ..shot import ShotFrame, by_drawing
+from .tasks import on_one_device
 
 CONNECT_SECONDS = 30
 
@@ -63,7 +65,7 @@ def light_on_cluster(
             "Install it: pip install 'lampblack[cluster]'.",
         ) from error
     check_address(address)
-    settings_json = msgspec.json.encode(settings.absolute())
+    settings_json = msgspec.json.encode(on_one_device(settings).absolute())
     run = secrets.token_hex(8)
     outcome = Outcome()
     try:
@@ -116,7 +118,7 @@ def light_group(
     """
     with _ONE_AT_A_TIME:
         job = _resolved(settings_json, run)
-        pipeline = _warm_pipeline(job.options)
+        pipeline = _warm_pipeline(job.options, job.device)
         wanted = [frame for frame in job.frames if frame.name in set(names)]
         outcome = render_shot(job, pipeline, wanted)
     failed = {frame.name: error for frame, error in outcome.failed}
@@ -140,7 +142,7 @@ Became = Literal["done", "kept", "unlit", "failed", "full"]
 _ONE_AT_A_TIME = threading.Lock()
 
 
-_pipelines: list[Pipeline] = []
+_pipelines: list[tuple[DeviceChoice, Pipeline]] = []
 
 
 @functools.lru_cache(maxsize=1)
@@ -148,13 +150,19 @@ def _resolved(settings_json: bytes, run: str) -> ResolvedJob:
     return resolve_job(msgspec.json.decode(settings_json, type=RenderSettings))
 
 
-def _warm_pipeline(options: PipelineOptions) -> Pipeline:
-    """The worker's pipeline, kept between tasks; its renderer ends with the worker."""
-    if _pipelines and _pipelines[0].surfaces.options != options:
-        _pipelines.pop().close()
+def _warm_pipeline(options: PipelineOptions, device: DeviceChoice) -> Pipeline:
+    """The worker's pipeline, kept between tasks; its renderer ends with the worker.
+
+    Raises:
+        RenderError: this machine cannot use ``device``.
+    """
+    if _pipelines and (_pipelines[0][0], _pipelines[0][1].surfaces.options) != (device, options):
+        _pipelines.pop()[1].close()
     if not _pipelines:
-        _pipelines.append(Pipeline(surface_cache(), options))
-    return _pipelines[0]
+        renderer = RenderChild(device=device)
+        renderer.require_device()
+        _pipelines.append((device, Pipeline(surface_cache(), options, renderer=renderer)))
+    return _pipelines[0][1]
 
 
 def _take_in(

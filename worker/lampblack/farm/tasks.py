@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import msgspec
+
 from ..errors import LampblackError
+from ..finals.settings import RenderSettings
 from ..shot import ShotFrame, by_drawing
 
 MAX_TASKS = 1024
 """The most values of an OpenJD task parameter."""
+
+
+def on_one_device(settings: RenderSettings) -> RenderSettings:
+    """The settings for tasks on several machines: without a named device all use the processor,
+    so that one shot is not lit by several kinds."""
+    return (
+        msgspec.structs.replace(settings, device="cpu") if settings.device == "auto" else settings
+    )
 
 
 def cut_into_tasks(frames: Sequence[ShotFrame], size: int) -> list[list[int]]:

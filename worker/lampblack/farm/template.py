@@ -14,6 +14,7 @@ from ..drawing.numbering import is_pattern
 from ..drawing.sequence import frame_list
 from ..errors import LampblackError
 from ..finals.settings import RenderSettings
+from .tasks import on_one_device
 
 VERSION = "jobtemplate-2023-09"
 FRAMES = "{{Task.Param.Frames}}"
@@ -49,7 +50,7 @@ def job_template(
             named[name] += "/{{Param." + name + "Names}}"
     replaced: dict[str, Any] = {"inputs": (named["Input"],), "output": named["Output"]}
     replaced |= {field: named[name] for name, field in _FILES.items() if name in named}
-    task = msgspec.structs.replace(settings, frames=FRAMES, **replaced)
+    task = msgspec.structs.replace(on_one_device(settings), frames=FRAMES, **replaced)
     words = _unbraced(task.arguments(), (*named.values(), FRAMES), parameters)
     parameters.append(
         {"name": "Lampblack", "type": "STRING", "default": "lampblack",

@@ -7,16 +7,19 @@ is composited and written.
 from __future__ import annotations
 
 import warnings
+from collections import Counter
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 
+from ..choices import DeviceKind
 from ..errors import LampblackError, LampblackWarning, OutputError, RenderError
 from ..pipeline import Pipeline
 from ..shot import ShotFrame
 from .frame_files import LitCel, copy_frame, save_frame
 from .prefetch import prefetch
 from .resolve import ResolvedJob
+from .targets import device_stamp
 from .tasks import Blank, Failed, Ready, RenderTask, StampedFrame, Traced, UpToDate, plan
 
 ATTEMPTS = 3
@@ -32,12 +35,14 @@ class Outcome:
     Attributes:
         done: frames whose file exists. kept: those whose file existed before.
         unlit: blank frames, written as drawn. failed: frames with their errors.
+        devices: number of lit frames by the device that traced them.
     """
 
     done: list[ShotFrame] = field(default_factory=list)
     kept: list[ShotFrame] = field(default_factory=list)
     unlit: list[ShotFrame] = field(default_factory=list)
     failed: list[tuple[ShotFrame, LampblackError]] = field(default_factory=list)
+    devices: Counter[DeviceKind] = field(default_factory=Counter)
 
 
 class RenderListener:
@@ -158,7 +163,8 @@ class _Run:
     def finish(self, task: UpToDate | Failed | Blank | Traced) -> None:
         """Writes lit frames and reports their results."""
         match task:
-            case UpToDate(frame):
+            case UpToDate(frame, device):
+                self.outcome.devices[device] += 1
                 self.outcome.done.append(frame)
                 self.outcome.kept.append(frame)
                 self.listener.on_frame(frame, None, kept=True)
@@ -171,11 +177,13 @@ class _Run:
                         self.outcome.unlit.append(frame)
                         self.listener.on_blank(frame, reason)
                     self.listener.on_frame(frame, None, kept=False)
-            case Traced(ready, _):
+            case Traced(ready, passes):
                 first, _ = ready.frames[0]
                 for sentence in ready.warnings:
                     self.listener.on_warning(first, sentence)
-                for frame in self._write(ready.frames, lambda: LitCel.of(task, self.job.targets)):
+                stamped = [(f, device_stamp(stamp, passes.device)) for f, stamp in ready.frames]
+                for frame in self._write(stamped, lambda: LitCel.of(task, self.job.targets)):
+                    self.outcome.devices[passes.device] += 1
                     self.listener.on_frame(frame, None, kept=False)
 
     def _write(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..choices import PipelineOptions
+from ..choices import DeviceChoice, PipelineOptions
 from ..drawing import Frame, find_frames, load_picture, parse_frames, select_frames
 from ..errors import LampblackError
 from ..looks import find_style
@@ -52,6 +52,7 @@ class ResolvedJob(ResolvedShot):
 
     targets: Targets
     options: PipelineOptions
+    device: DeviceChoice
     again: bool
 
 
@@ -68,7 +69,13 @@ def resolve_job(settings: RenderSettings, scene: Scene | None = None) -> Resolve
     resolved = resolve_shot(settings, scene)
     targets.prepare(resolved.frames, resolved.sources)
     options = PipelineOptions(settings.grids, settings.solver)
-    return ResolvedJob(**vars(resolved), targets=targets, options=options, again=settings.again)
+    return ResolvedJob(
+        **vars(resolved),
+        targets=targets,
+        options=options,
+        device=settings.device,
+        again=settings.again,
+    )
 
 
 def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> ResolvedShot:

@@ -11,6 +11,7 @@ from ..choices import (
     DEFAULT_GRIDS,
     ApartKind,
     BodyChoice,
+    DeviceChoice,
     FileFormat,
     FrameLayers,
     LayerRole,
@@ -45,6 +46,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
         camera: camera layer of a project; None is the first camera.
         layers: layers of a project that the frames show: all, or only the lit ones.
         steady: whether normals pass the temporal filter.
+        device: what traces the light. Files from another device are up to date only for ``auto``.
         again: whether frames whose files are up to date are rendered again.
     """
 
@@ -70,6 +72,7 @@ class RenderSettings(msgspec.Struct, frozen=True, kw_only=True):
     camera: str | None = None
     layers: FrameLayers = "all"
     steady: bool = True
+    device: DeviceChoice = "auto"
     again: bool = False
 
     def absolute(self) -> RenderSettings:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import get_args
 
-from ..choices import ApartKind, FileFormat
+from ..choices import ApartKind, DeviceChoice, DeviceKind, FileFormat
 from ..composite.apart import LAYERS
 from ..drawing import PICTURE_SUFFIXES
 from ..drawing.numbering import numbered_names
@@ -151,6 +151,16 @@ class Targets:
         """Whether the files of ``frame`` are there and complete, whatever they were made from."""
         return all(_STAMPS[path.suffix.lower()](path) for path in self.paths(frame))
 
-    def holds(self, frame: ShotFrame, stamp: str) -> bool:
-        """Whether the files of ``frame`` are up to date: complete, and with this ``stamp``."""
-        return all(_STAMPS[path.suffix.lower()](path) == stamp for path in self.paths(frame))
+    def holds(self, frame: ShotFrame, stamp: str, device: DeviceChoice) -> DeviceKind | None:
+        """The device that traced the files of ``frame`` if they are up to date: complete, with
+        this ``stamp``, and all from ``device``. None if they are not."""
+        found = {_STAMPS[path.suffix.lower()](path) for path in self.paths(frame)}
+        for kind in get_args(DeviceKind):
+            if found == {device_stamp(stamp, kind)} and device in ("auto", kind):
+                return kind  # type: ignore[no-any-return]
+        return None
+
+
+def device_stamp(stamp: str, device: DeviceKind) -> str:
+    """The stamp of a file that ``device`` traced: a card's pictures differ in their last bits."""
+    return stamp if device == "cpu" else f"{stamp} {device}"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .. import __version__
 from ..cache import digest
+from ..choices import DeviceKind
 from ..errors import LampblackError, LampblackWarning, NothingDrawnError
 from ..normals.card import shipped_weights
 from ..pipeline import Pipeline
@@ -29,9 +30,10 @@ StampedFrame = tuple[ShotFrame, str]
 
 @dataclass(frozen=True)
 class UpToDate:
-    """The file of ``frame`` is complete and has the same inputs."""
+    """The file of ``frame`` is complete and has the same inputs; ``device`` traced it."""
 
     frame: ShotFrame
+    device: DeviceKind
 
 
 @dataclass(frozen=True)
@@ -127,9 +129,11 @@ class _Planner:
                 canvas = shot.canvas or Canvas(*_size(cel))
                 scene = self._scene(frame, canvas)
                 stamp = self._stamp(frame, canvas, scene)
-                if not self._job.again and self._job.targets.holds(frame, stamp):
-                    yield UpToDate(frame)
-                    continue
+                if not self._job.again:
+                    device = self._job.targets.holds(frame, stamp, self._job.device)
+                    if device is not None:
+                        yield UpToDate(frame, device)
+                        continue
                 cel = cel or shot.cel(frame)
                 placed = shot.place(frame, scene, _size(cel))
                 placed = self._pins.followed(frame, placed, scene)

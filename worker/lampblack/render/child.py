@@ -1,6 +1,8 @@
-"""The render process: ``python -m lampblack.render.child``. Only this process runs Blender.
+"""The render process: ``python -m lampblack.render.child DEVICE MEMORY``. Only this process runs
+Blender. DEVICE is a ``DeviceChoice``, MEMORY the file of what is known of graphics cards.
 
-It reads requests from stdin and writes answers to its original stdout, until either closes.
+Its first message says on what it traces. It reads requests from stdin and writes answers to its
+original stdout, until either closes.
 """
 
 from __future__ import annotations
@@ -12,8 +14,10 @@ import threading
 import traceback
 from collections.abc import Iterator
 from io import FileIO
-from typing import NoReturn
+from pathlib import Path
+from typing import NoReturn, cast
 
+from ..choices import DeviceChoice
 from .wire import (
     Accumulate,
     Array,
@@ -38,11 +42,11 @@ def main() -> NoReturn:
     threading.Thread(target=_read_requests, args=(inbox,), daemon=True).start()
 
     from .accumulation import Accumulation
-    from .denoise import Denoiser
-    from .stage import Stage, threads
     from .trace import trace
+    from .trial import set_up
 
-    stage, denoiser = Stage(), Denoiser(threads())
+    stage, denoiser, started = set_up(cast(DeviceChoice, sys.argv[1]), Path(sys.argv[2]))
+    send(answers, started)
     accumulation = Accumulation()
     while True:
         message, arrays = inbox.get()

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator
 from io import FileIO
 from pathlib import Path
@@ -20,10 +21,11 @@ from typing import IO, Literal, Self, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..choices import GlowName
-from ..errors import RenderError
+from ..choices import DeviceChoice, GlowName
+from ..errors import LampblackWarning, RenderError
 from ..own_folder import own_folder
 from ..scene import Ambient, AreaLight
+from .device import USED, memory_path
 from .passes import DARK, LightPasses, Passes
 from .request import RenderRequest, Surface
 from .watched_pipe import WatchedPipe, unblocked
@@ -33,6 +35,7 @@ from .wire import (
     Failed,
     Load,
     SaveBlend,
+    Started,
     Trace,
     Traced,
     WireError,
@@ -41,7 +44,14 @@ from .wire import (
 )
 
 # The child gets only these: library and Python paths of a drawing program would break it.
-KEPT_VARIABLES = ("PATH", "HOME", "LANG", "SYSTEMROOT")
+KEPT_VARIABLES = (
+    *("PATH", "HOME", "LANG", "SYSTEMROOT"),
+    # They say which of a machine's graphics cards this process may use.
+    *("CUDA_VISIBLE_DEVICES", "HIP_VISIBLE_DEVICES", "ROCR_VISIBLE_DEVICES"),
+    *("ONEAPI_DEVICE_SELECTOR", "ZE_AFFINITY_MASK"),
+)
+COMMAND = (sys.executable, "-I", "-m", "lampblack.render.child")
+CARD_LOST = "The graphics card may have failed. From now on the processor is used."
 
 
 class RenderChild:
@@ -51,16 +61,24 @@ class RenderChild:
     it dies, the current render raises and the next one starts a new child. It ignores Ctrl-C in
     the terminal, and ends with the parent.
 
+    A graphics card that fails is given up: what failed is to be asked again, and is then traced on
+    the processor, as is all that follows.
+
     Args:
         niceness: of the child's process, 0 to 19.
+        device: what it traces on. A card that is not there, or that is not right, is replaced by
+            the processor, with a warning.
 
     Example:
         >>> with RenderChild() as child:
         ...     passes = child.render(frame_request(drawing.size, surface, scene))
     """
 
-    def __init__(self, niceness: int = 0) -> None:
+    def __init__(self, niceness: int = 0, device: DeviceChoice = "cpu") -> None:
         self._niceness = niceness
+        self._wanted = device
+        self._started: Started | None = None
+        self._killed = self._told = False
         self._surface: Surface | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._log: IO[bytes] | None = None
@@ -93,7 +111,7 @@ class RenderChild:
             ambient = self._trace(request, None) if request.ambient else DARK
             shining = [glow for glow in request.glows if glow in request.surface.emitters]
             glows = {glow: self._trace(request, None, glow) for glow in shining}
-            return Passes(lights, ambient, **glows)
+            return Passes(lights, ambient, **glows, device=self._on.device)
 
     def accumulate(self, surface: Surface, job: Accumulate) -> tuple[NDArray[np.float32], ...]:
         """Trace more samples of one source; see ``Accumulate``.
@@ -141,11 +159,18 @@ class RenderChild:
         """A context in which a child runs and has ``surface``; if it dies, a RenderError."""
         try:
             self.start()
+            self._await_start()
+            if self._on.notice and not self._told:
+                self._told = True
+                warnings.warn(self._on.notice, LampblackWarning, stacklevel=4)
             self._load(surface)
             yield
         except (WireError, OSError) as error:
             raise self._lost(error) from error
-        except RenderError:
+        except RenderError as error:
+            if self._give_up_card():
+                error.remedy = CARD_LOST
+                self._end()
             raise
         except BaseException:
             # An interrupted exchange cannot be resumed, so the child is ended.
@@ -156,6 +181,7 @@ class RenderChild:
         """End the current render, which then raises; any thread may call this."""
         process = self._process
         if process:
+            self._killed = True
             process.kill()
 
     def close(self) -> None:
@@ -166,6 +192,33 @@ class RenderChild:
     def pid(self) -> int | None:
         """Process id of the child, None while there is none."""
         return self._process.pid if self._process else None
+
+    def device(self) -> Started:
+        """What the child traces on; waits until it has loaded.
+
+        Raises:
+            RenderError: the child died.
+        """
+        try:
+            self.start()
+            self._await_start()
+        except (WireError, OSError) as error:
+            raise self._lost(error) from error
+        return self._on
+
+    def require_device(self) -> None:
+        """Wait until it is known that the child traces on the device that was asked for by name.
+
+        Raises:
+            RenderError: it does not, or it died.
+        """
+        if self._wanted in ("auto", "cpu"):
+            return
+        started = self.device()
+        if started.device != self._wanted:
+            self._told = True
+            what = started.notice.removesuffix(USED).strip()
+            raise RenderError(what, "Leave out --device, or see what lampblack doctor finds.")
 
     @property
     def alive(self) -> bool:
@@ -180,8 +233,9 @@ class RenderChild:
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the child
         # Blender leaves its temporary folder behind when it is ended.
         self._folder = own_folder()
+        self._killed = False
         self._process = subprocess.Popen(
-            [sys.executable, "-I", "-m", "lampblack.render.child"],
+            [*COMMAND, self._wanted, str(memory_path())],
             bufsize=0,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -200,7 +254,7 @@ class RenderChild:
 
     def _end(self) -> None:
         process, self._process, self._loaded = self._process, None, b""
-        self._surface = None
+        self._surface, self._started = None, None
         if process:
             process.kill()
             process.wait()
@@ -213,6 +267,29 @@ class RenderChild:
         if self._folder:
             shutil.rmtree(self._folder, ignore_errors=True)
             self._folder = None
+
+    @property
+    def _on(self) -> Started:
+        assert self._started is not None
+        return self._started
+
+    def _await_start(self) -> None:
+        """Read what the child traces on, once."""
+        if self._started is not None:
+            return
+        message, _ = receive(self._pipe("stdout"))
+        if isinstance(message, Failed):
+            raise RenderError("The renderer could not start.", message.what, message.details)
+        if not isinstance(message, Started):
+            raise WireError(f"an unexpected {type(message).__name__}")
+        self._started = message
+
+    def _give_up_card(self) -> bool:
+        """After a failure, trace on the processor from now on. Whether a card was used."""
+        if self._killed or (self._started is not None and self._started.device == "cpu"):
+            return False
+        self._wanted = "cpu"
+        return self._started is not None
 
     def _load(self, surface: Surface) -> None:
         if surface is self._surface:
@@ -269,8 +346,9 @@ class RenderChild:
                 status = self._process.wait(timeout=2)
             self._log.seek(max(0, self._log.seek(0, os.SEEK_END) - 4096))
             log = self._log.read().decode(errors="replace").strip()
+        gave_up = self._give_up_card()
         self._end()
-        remedy = "Try again; the renderer starts anew by itself."
+        remedy = CARD_LOST if gave_up else "Try again; the renderer starts anew by itself."
         if status == -signal.Signals.SIGKILL.value:
             remedy += " If the machine ran out of memory, choose a lower quality."
         details = f"exit status {status}; {error}\n{log}".strip()

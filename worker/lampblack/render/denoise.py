@@ -13,19 +13,36 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import DeviceKind
+
 FLOAT3 = 3
 MARGIN = 8  # mirrored around the image, whose borders the network otherwise gets wrong
 DenoiseQuality = Literal["fast", "high"]
 QUALITY = {"fast": 4, "high": 6}
+DEVICE_TYPES: dict[DeviceKind, int] = {
+    "cpu": 1, "oneapi": 2, "cuda": 3, "optix": 3, "hip": 4, "metal": 5
+}  # fmt: skip
 
 
 class Denoiser:
-    """One CPU device, reused for all images."""
+    """One device, reused for all images.
 
-    def __init__(self, threads: int) -> None:
+    Args:
+        threads: of the processor.
+        kind: the processor, or a graphics card.
+
+    Raises:
+        RuntimeError: the library's own message: it cannot use that device.
+    """
+
+    def __init__(self, threads: int, kind: DeviceKind = "cpu") -> None:
         self._lib = _load()
-        self._device = self._lib.oidnNewDevice(1)
-        self._lib.oidnSetDeviceInt(self._device, b"numThreads", threads)
+        self._device = self._lib.oidnNewDevice(DEVICE_TYPES[kind])
+        if not self._device:
+            raise RuntimeError(f"Open Image Denoise: it has no device for {kind}")
+        self._on_card = kind != "cpu"
+        if not self._on_card:
+            self._lib.oidnSetDeviceInt(self._device, b"numThreads", threads)
         self._lib.oidnCommitDevice(self._device)
         self._check()
 
@@ -43,18 +60,29 @@ class Denoiser:
         height, width = output.shape[:2]
         lib = self._lib
         rt = lib.oidnNewFilter(self._device, b"RT")
+        buffers = [lib.oidnNewBuffer(self._device, noisy.nbytes) for _ in range(2 * self._on_card)]
         try:
-            for name, array in ((b"color", noisy), (b"output", output)):
-                lib.oidnSetSharedFilterImage(
-                    rt, name, array.ctypes.data, FLOAT3, width, height, 0, 0, 0
-                )
+            if self._on_card:  # a card does not see this process's memory
+                lib.oidnWriteBuffer(buffers[0], 0, noisy.nbytes, noisy.ctypes.data)
+                for name, buffer in zip((b"color", b"output"), buffers, strict=True):
+                    lib.oidnSetFilterImage(rt, name, buffer, FLOAT3, width, height, 0, 0, 0)
+            else:
+                for name, array in ((b"color", noisy), (b"output", output)):
+                    lib.oidnSetSharedFilterImage(
+                        rt, name, array.ctypes.data, FLOAT3, width, height, 0, 0, 0
+                    )
             lib.oidnSetFilterBool(rt, b"hdr", True)
             lib.oidnSetFilterInt(rt, b"quality", QUALITY[quality])
             lib.oidnCommitFilter(rt)
             lib.oidnExecuteFilter(rt)
             self._check()
+            if self._on_card:
+                lib.oidnReadBuffer(buffers[1], 0, output.nbytes, output.ctypes.data)
+                self._check()
         finally:
             lib.oidnReleaseFilter(rt)
+            for buffer in buffers:
+                lib.oidnReleaseBuffer(buffer)
         return output[MARGIN:-MARGIN, MARGIN:-MARGIN]
 
     def _check(self) -> None:
@@ -87,6 +115,14 @@ def _declare(lib: ctypes.CDLL) -> ctypes.CDLL:
             None,
             [handle, text, handle, ctypes.c_int, size, size, size, size, size],
         ),
+        "oidnSetFilterImage": (
+            None,
+            [handle, text, handle, ctypes.c_int, size, size, size, size, size],
+        ),
+        "oidnNewBuffer": (handle, [handle, size]),
+        "oidnWriteBuffer": (None, [handle, size, size, handle]),
+        "oidnReadBuffer": (None, [handle, size, size, handle]),
+        "oidnReleaseBuffer": (None, [handle]),
         "oidnSetFilterBool": (None, [handle, text, ctypes.c_bool]),
         "oidnSetFilterInt": (None, [handle, text, ctypes.c_int]),
         "oidnCommitFilter": (None, [handle]),

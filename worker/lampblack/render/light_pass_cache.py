@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 
-from ..choices import GlowName
+from ..choices import DeviceKind, GlowName
 from ..scene import Scene, shining
 from .passes import DARK, LightPasses, Passes
 
@@ -24,6 +24,7 @@ class LightPassCache:
     _lights: dict[Hashable, LightPasses] = field(default_factory=dict)
     _ambient: LightPasses | None = None
     _glows: dict[tuple[GlowName, Hashable], LightPasses | None] = field(default_factory=dict)
+    _device: DeviceKind = "cpu"
 
     def complete(
         self, drawing: object, scene: Scene, trace: Trace, glows: Glows | None = None
@@ -32,7 +33,7 @@ class LightPassCache:
         called for the lights that shine and are not in the cache; those that do not shine keep
         their light for later, or are dark."""
         key = scene.render_key()
-        if drawing is not self._drawing or key != self._key:
+        if drawing is not self._drawing or key != self._key or self._ambient is None:
             self._lights, self._ambient, self._glows = {}, None, {}
         shown = zip(scene.lights, shining(scene.lights), strict=True)
         missing = {light.geometry: light for light, shines in shown if shines}
@@ -42,6 +43,11 @@ class LightPassCache:
         if missing or dark or self._ambient is None:
             asked = replace(scene, lights=tuple(missing.values()))
             found = trace(asked, self._ambient is None, [name for name, _ in dark])
+            if found.device != self._device:
+                self._device = found.device
+                if self._ambient is not None:  # one picture has the light of one device
+                    self._ambient = None
+                    return self.complete(drawing, scene, trace, glows)
             self._lights |= dict(zip(missing, found.lights, strict=True))
             self._ambient = self._ambient or found.ambient
             self._glows |= {glow: getattr(found, glow[0]) for glow in dark}
@@ -53,4 +59,5 @@ class LightPassCache:
             tuple(self._lights.get(where, DARK) for where in places),
             self._ambient,
             **{glow[0]: self._glows[glow] for glow in wanted},
+            device=self._device,
         )

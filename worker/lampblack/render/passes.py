@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..choices import DeviceKind
+
 
 @dataclass(frozen=True)
 class LightPasses:
@@ -43,9 +45,11 @@ class Passes:
         ambient: the ambient light of strength 1.
         emission: emissive colours, the brightest of them with an emission of 1; None without any.
         painted: painted light of power 1; None without any.
+        device: what traced all of it.
     """
 
     lights: tuple[LightPasses, ...]
     ambient: LightPasses
     emission: LightPasses | None = None
     painted: LightPasses | None = None
+    device: DeviceKind = "cpu"

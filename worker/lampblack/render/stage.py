@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from ..choices import GlowName
 from ..scene import AreaLight, Canvas, Floor
+from .cards import use_card
+from .device import Card
 from .glow import add_emitter, remove_emitter
 from .quality import Sampling
 
@@ -39,12 +41,21 @@ Arrays = Sequence[Any]
 
 
 class Stage:
-    """The Blender scene, kept between renders, so that only changed parts are rebuilt."""
+    """The Blender scene, kept between renders, so that only changed parts are rebuilt.
 
-    def __init__(self) -> None:
+    Args:
+        card: traces instead of the processor.
+
+    Raises:
+        RuntimeError: ``card`` cannot be used.
+    """
+
+    def __init__(self, card: Card | None = None) -> None:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.scene: Any = bpy.context.scene
         self._set_engine()
+        if card is not None:
+            use_card(self.scene, card)
         self._surface: Arrays | None = None
         self._emitters: Mapping[GlowName, Arrays] = {}
         self._glows: dict[GlowName, Any] = {}

@@ -16,7 +16,7 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
-from ..choices import GlowName
+from ..choices import DeviceKind, GlowName
 from ..scene import Ambient, AreaLight, Canvas, Floor
 from .quality import Quality
 
@@ -28,6 +28,15 @@ Array = NDArray[np.float32] | NDArray[np.int32]
 
 class WireError(Exception):
     """The other side closed the pipe or sent a malformed message."""
+
+
+class Started(msgspec.Struct, tag=True):
+    """The child's first message: the device that it traces on, its name, and a sentence for the
+    artist if that is not what was to be expected."""
+
+    device: DeviceKind
+    name: str = ""
+    notice: str = ""
 
 
 class Load(msgspec.Struct, tag=True):
@@ -95,7 +104,7 @@ class Failed(msgspec.Struct, tag=True):
     details: str
 
 
-Message = Load | Trace | Accumulate | SaveBlend | Traced | Failed
+Message = Started | Load | Trace | Accumulate | SaveBlend | Traced | Failed
 
 
 class ArraySpec(msgspec.Struct, array_like=True):

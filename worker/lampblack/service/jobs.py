@@ -197,6 +197,7 @@ class Jobs:
             reach=REACH,
             targets=targets,
             options=self.pipeline.surfaces.options,
+            device="auto",
             again=not message.keep_finished,
         )
 

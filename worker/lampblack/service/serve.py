@@ -10,6 +10,7 @@ from pathlib import Path
 import zmq
 
 from ..cache import surface_cache
+from ..choices import DeviceChoice
 from ..errors import LampblackError
 from ..pipeline import Pipeline
 from ..render import RenderChild
@@ -21,10 +22,12 @@ from .service import Service
 from .socket import RouterSocket
 
 
-def serve_forever(connection: Path, parent: int | None = None) -> None:
+def serve_forever(
+    connection: Path, parent: int | None = None, device: DeviceChoice = "auto"
+) -> None:
     """Serve until interrupted, or until the process ``parent`` ends.
 
-    Socket, file and child processes are removed at the end.
+    Socket, file and child processes are removed at the end. ``device`` traces previews and jobs.
 
     Raises:
         LampblackError: there is no such parent, or the socket or the file cannot be made.
@@ -37,8 +40,8 @@ def serve_forever(connection: Path, parent: int | None = None) -> None:
             socket = RouterSocket(context, endpoint)
             try:
                 cache = surface_cache()
-                jobs = Pipeline(cache, niceness=NICENESS)
-                service = Service(socket, RenderChild(), Pipeline(cache), jobs)
+                jobs = Pipeline(cache, niceness=NICENESS, device=device)
+                service = Service(socket, RenderChild(device=device), Pipeline(cache), jobs)
                 with connection_file(connection, endpoint):
                     Server(socket, service).run(lambda: _is_gone(watched), watched)
             finally:
