@@ -11,6 +11,7 @@ import trimesh
 from lampblack.drawing import save_picture
 from lampblack.normals.card import NetworkCard
 from lampblack.normals.networks import build_network
+from lampblack.normals.networks.torch_network import TorchNetwork
 from lampblack.normals.predict import NormalPredictor
 from lampblack_research.evaluation.turntable import turntable
 from support.command_line import Run
@@ -33,7 +34,9 @@ def test_command_measures_drawings_and_skips_holds_and_blanks(run: Run, tmp_path
 
 def test_on_a_turntable_the_truth_has_no_error(tmp_path: Path) -> None:
     trimesh.creation.capsule(radius=0.4).export(tmp_path / "pill.ply")
-    small = NormalPredictor(build_network("figure-net"), NetworkCard("figure-net", (64, 96)))
+    small = NormalPredictor(
+        TorchNetwork(build_network("figure-net")), NetworkCard("figure-net", (64, 96))
+    )
     rows = turntable(tmp_path / "pill.ply", small, views=3, character_px=96)
     assert set(rows) == {"truth", "predicted", "steadied"}
     assert rows["truth"].error < 0.1
@@ -46,7 +49,9 @@ def test_cuts_of_the_truth_are_followed_along_the_model(tmp_path: Path) -> None:
     front = trimesh.creation.icosphere(subdivisions=3, radius=0.2)
     front.apply_translation((0.1, 0, 1))
     trimesh.util.concatenate([ball, front]).export(tmp_path / "balls.ply")
-    small = NormalPredictor(build_network("figure-net"), NetworkCard("figure-net", (64, 96)))
+    small = NormalPredictor(
+        TorchNetwork(build_network("figure-net")), NetworkCard("figure-net", (64, 96))
+    )
     truth = turntable(tmp_path / "balls.ply", small, views=3, character_px=160)["truth"]
     assert truth.cuts == 1
     assert truth.flips == 0

@@ -7,11 +7,13 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from lampblack.normals.card import NetworkCard, load_network, shipped_weights
+from lampblack.normals.card import NetworkCard
 from lampblack.normals.character import MARGIN as CANVAS_MARGIN
 from lampblack.normals.character import canvas_for, canvases, place
+from lampblack.normals.network import shipped_network
 from lampblack.normals.networks import CharacterNet, DilatedUNet, StridedUNet, build_network
 from lampblack.normals.networks.dilated_unet import DILATIONS
+from lampblack.normals.networks.torch_network import TorchNetwork
 from lampblack.normals.predict import NormalPredictor
 from lampblack.normals.predict_character import character_planes, mean_planes
 from lampblack.normals.silhouette import flat_normals, inflated_normals, lumo_normals
@@ -40,7 +42,7 @@ def quiet_network(architecture: str, px: tuple[int, int] | None = None) -> Norma
     if isinstance(network, CharacterNet):  # it starts as Lumo, which would hide its faults
         torch.nn.init.normal_(network.normals.weight, std=0.02)
     px = px or ((96, 128) if architecture == "figure-net" else (256, 640))
-    return NormalPredictor(network, NetworkCard(architecture, px))
+    return NormalPredictor(TorchNetwork(network), NetworkCard(architecture, px))
 
 
 both_kinds = pytest.mark.parametrize("architecture", ["figure-net", "dilated-unet"])
@@ -127,7 +129,7 @@ def test_the_character_network_starts_as_lumo() -> None:
     mask, _ = ball(300, 120.0)
     card = NetworkCard("figure-net", (256, 256), roundness=1.0)
     found = (
-        NormalPredictor(build_network("figure-net"), card)
+        NormalPredictor(TorchNetwork(build_network("figure-net")), card)
         .predict(mask * np.float32(0), mask)
         .normals
     )
@@ -259,7 +261,7 @@ def test_grids_ask_the_papers_network() -> None:
     mask, _ = ball(200, 80.0)
     lines = (mask & ~erode(mask)).astype(np.float32)
     whole, tiled = (NormalPredictor().predict(lines, mask, grids=grids).normals for grids in (0, 1))
-    paper = NormalPredictor(*load_network(shipped_weights("dilated-unet")))
+    paper = NormalPredictor(*shipped_network("dilated-unet"))
     assert np.array_equal(tiled, paper.predict(lines, mask, grids=1).normals)
     assert not np.array_equal(tiled, whole)
 

@@ -36,6 +36,9 @@ class Renderer(Protocol):
     def start(self) -> None:
         """Start the renderer, unless it runs."""
 
+    def require_device(self) -> None:
+        """Wait until it is known that it traces on the device that was asked for by name."""
+
     def render(self, request: RenderRequest) -> Passes:
         """Trace every light of ``request``."""
 

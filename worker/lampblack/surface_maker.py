@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
 from .cache import ArrayCache, Arrays, digest
@@ -209,11 +208,10 @@ def _shrink(
     """Blocks of ``step`` x ``step`` pixels as one: normals are averaged, and a line remains if any
     of its pixels is there. A block is inside if its middle pixel is."""
     rows, columns = mask.shape[0] // step, mask.shape[1] // step
+    blocks = rows, step, columns, step
     whole = np.s_[: rows * step, : columns * step]
-    pool = torch.nn.functional
-    planes = torch.from_numpy(prediction.normals[whole]).permute(2, 0, 1)
-    pooled = pool.avg_pool2d(planes, step).permute(1, 2, 0).numpy()
-    darkest = pool.max_pool2d(torch.from_numpy(lines[whole])[None], step)[0].numpy()
+    pooled = prediction.normals[whole].reshape(*blocks, 3).mean(axis=(1, 3))
+    darkest = lines[whole].reshape(blocks).max(axis=(1, 3))
     middle = block_middles(mask, step)[:rows, :columns]
     length = np.maximum(np.linalg.norm(pooled, axis=2, keepdims=True), 1e-6)
     normals = (pooled / length * middle[..., None]).astype(np.float32)

@@ -65,7 +65,7 @@ def render(
     from ..finals.resolve import resolve_job
     from ..finals.sheet import cells_of
     from ..pipeline import Pipeline
-    from ..render.client import CARD_LOST, RenderChild
+    from ..render.client import CARD_LOST
 
     job = resolve_job(settings)
     columns = 0 if settings.sheet is None else cells_of(settings.sheet)[0]
@@ -91,9 +91,9 @@ def render(
             certificates = Certificates(tls_ca, tls_cert, tls_key)
             outcome = light_on_cluster(settings, job, cluster, certificates, Report())
         else:
-            renderer = RenderChild(device=job.device)
-            with Pipeline(surface_cache(), job.options, renderer=renderer) as pipeline:
-                renderer.require_device()
+            with Pipeline(surface_cache(), job.options, device=job.device) as pipeline:
+                if job.device not in ("auto", "cpu"):
+                    pipeline.renderer.require_device()
                 outcome = render_shot(job, pipeline, listener=Report())
     overviews.save(job, outcome.done)
     _summarise(job, outcome)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 from scipy import ndimage
-from torch import nn
 
+from .resize import resize
 from .silhouette import interpolated_outline
 
 COARSE = 4
@@ -76,17 +75,6 @@ def place(image: Plane, canvas: Canvas) -> Plane:
     placed = np.zeros((*canvas.shape, image.shape[2]), np.float32)
     placed[canvas.inner] = resize(image, canvas.size)
     return placed
-
-
-def resize(image: Plane, size: tuple[int, ...]) -> Plane:
-    """(H, W, C) -> (*size, C); pixel borders stay aligned."""
-    if image.shape[:2] == size:
-        return image.copy()
-    planes = torch.from_numpy(np.ascontiguousarray(image)).permute(2, 0, 1)[None]
-    resized = nn.functional.interpolate(
-        planes, size=size, mode="bilinear", antialias=True, align_corners=False
-    )
-    return resized[0].permute(1, 2, 0).contiguous().numpy()
 
 
 def extend_outside(vectors: Plane, mask: NDArray[np.bool_]) -> Plane:

@@ -6,19 +6,18 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import nn
 
 from .. import __version__
 from ..cache import digest
 from ..choices import DEFAULT_GRIDS
-from .card import NetworkCard, load_network, shipped_weights
-from .character import bounding_box, extend_outside, resize
-from .networks import CharacterNet
+from .card import NetworkCard
+from .character import bounding_box, extend_outside
+from .network import Network, shipped_network
 from .predict_character import mean_planes
 from .predict_tiles import MAX_GRIDS, tile_vectors
 from .prediction import Prediction
+from .resize import resize
 
 _TILE_GRIDS = 5
 
@@ -32,17 +31,15 @@ class NormalPredictor:
         network, card: a network to use instead of the shipped one.
 
     Raises:
-        LampblackError: the weights cannot be used (see ``load_network``).
+        LampblackError: the shipped weights cannot be used.
     """
 
-    def __init__(self, network: nn.Module | None = None, card: NetworkCard | None = None) -> None:
+    def __init__(self, network: Network | None = None, card: NetworkCard | None = None) -> None:
         if network is None or card is None:
-            network, card = load_network()
-        self._network = network.to(memory_format=torch.channels_last).eval()  # type: ignore[call-overload]
+            network, card = shipped_network()
+        self._network = network
         self.card = card
-        self.identity: str = digest(
-            __version__, card, *(tensor.numpy() for tensor in self._network.state_dict().values())
-        )
+        self.identity: str = digest(__version__, card, network.identity)
 
     def predict(
         self,
@@ -73,7 +70,7 @@ class NormalPredictor:
             raise ValueError(f"lines {lines.shape} and mask {mask.shape} must be equal (H, W)")
         if not 0 <= grids <= MAX_GRIDS:
             raise ValueError(f"grids must be 0 to {MAX_GRIDS}, not {grids}")
-        whole = isinstance(self._network, CharacterNet)
+        whole = self._network.whole
         if whole and grids:
             return self._paper.predict(lines, mask, grids=grids, progress=progress)
         normals = np.zeros((*mask.shape, 3), np.float32)
@@ -107,7 +104,7 @@ class NormalPredictor:
 
     @cached_property
     def _paper(self) -> NormalPredictor:
-        return NormalPredictor(*load_network(shipped_weights("dilated-unet")))
+        return NormalPredictor(*shipped_network("dilated-unet"))
 
     def _scale(self, long_side: int) -> float:
         smallest, *_, largest = self.card.figure_px

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import nn
+from scipy.special import expit
 
 from .character import (
     COARSE,
@@ -17,14 +16,14 @@ from .character import (
     coarse_maps,
     extend_outside,
     place,
-    resize,
     shape_maps,
 )
-from .precision import fast_arithmetic
+from .network import Network
+from .resize import resize
 
 
 def mean_planes(
-    network: nn.Module,
+    network: Network,
     sides: Sequence[int],
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
@@ -43,7 +42,7 @@ def mean_planes(
 
 
 def character_planes(
-    network: nn.Module,
+    network: Network,
     side: int,
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
@@ -53,7 +52,7 @@ def character_planes(
     """The prediction for one character, at the resolution of its canvas.
 
     Args:
-        network: a ``CharacterNet`` in evaluation mode.
+        network: one of whole characters.
         side: size of the canvas, as the side in pixels of a square of equal area.
         lines: (H, W) float32 ink in 0..1. mask: (H, W) bool. Both cropped to the character.
         mirrored: average with the prediction for the mirror image, so that a mirrored
@@ -68,29 +67,25 @@ def character_planes(
     canvas = canvas_for((rows, columns), side)
     fine, coarse, small = character_input(lines, mask, canvas)
     if mirrored:
-        flipped = coarse.flip(-1)
+        flipped = coarse[..., ::-1].copy()
         flipped[:, list(SIDEWAYS)] *= -1
-        fine, coarse = torch.cat([fine, fine.flip(-1)]), torch.cat([coarse, flipped])
-    last = torch.channels_last
-    with torch.inference_mode(), fast_arithmetic():
-        vectors, _, auxiliary = network(
-            fine.contiguous(memory_format=last), coarse.contiguous(memory_format=last)
-        )
-    vectors = nn.functional.normalize(vectors, dim=1)
-    edge = auxiliary[:, 1:].amax(dim=1, keepdim=True).sigmoid()
-    cells = torch.cat([auxiliary[:, :1], edge], dim=1)
+        fine = np.concatenate([fine, fine[..., ::-1]])
+        coarse = np.concatenate([coarse, flipped])
+    vectors, auxiliary = network.predict_character(fine, coarse)
+    vectors = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
+    edge = expit(auxiliary[:, 1:].max(axis=1, keepdims=True))
+    cells = np.concatenate([auxiliary[:, :1], edge], axis=1)
     if mirrored:
-        back = vectors[1].flip(-1)
+        back = vectors[1, :, :, ::-1].copy()
         back[0] *= -1
         vectors = (vectors[:1] + back) / 2
-        cells = (cells[:1] + cells[1:].flip(-1)) / 2
+        cells = (cells[:1] + cells[1:, :, :, ::-1]) / 2
     planes = np.concatenate([_channels_last(vectors), _spread(_channels_last(cells), small)], 2)
     return planes[canvas.inner], small[canvas.inner]
 
 
-def _channels_last(batch: torch.Tensor) -> NDArray[np.float32]:
-    planes: NDArray[np.float32] = batch[0].permute(1, 2, 0).contiguous().numpy()
-    return planes
+def _channels_last(batch: NDArray[np.float32]) -> NDArray[np.float32]:
+    return np.ascontiguousarray(batch[0].transpose(1, 2, 0), np.float32)
 
 
 def _spread(cells: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
@@ -102,13 +97,13 @@ def _spread(cells: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.f
 
 def character_input(
     lines: NDArray[np.float32], mask: NDArray[np.bool_], canvas: Canvas
-) -> tuple[torch.Tensor, torch.Tensor, NDArray[np.bool_]]:
-    """The fine (1, 2, h, w) and coarse (1, 10, h/4, w/4) input tensors, and the (h, w) mask."""
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.bool_]]:
+    """The fine (1, 2, h, w) and coarse (1, 10, h/4, w/4) input, and the (h, w) mask."""
     placed = place(np.stack([lines * mask, mask], axis=2).astype(np.float32), canvas)
     share = placed[..., 1]
     small = share > 0.5
     if not small.any():
         small = share >= share.max()
     ink = np.clip(placed[..., 0] / np.maximum(share, 0.25), 0, 1) * small
-    fine = torch.from_numpy(np.stack([ink, small.astype(np.float32)]))[None]
-    return fine, torch.from_numpy(coarse_maps(shape_maps(small), ink))[None], small
+    fine = np.stack([ink, small.astype(np.float32)])[None]
+    return fine.astype(np.float32), coarse_maps(shape_maps(small), ink)[None], small

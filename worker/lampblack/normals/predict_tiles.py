@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import nn
 
-from .precision import fast_arithmetic
+from .network import Network
 from .tiles import TILE, TileSource, diagonal_grids
 
 PAPER_GRIDS = 20
@@ -18,7 +16,7 @@ _BATCH = 8
 
 
 def tile_vectors(
-    network: nn.Module,
+    network: Network,
     lines: NDArray[np.float32],
     mask: NDArray[np.bool_],
     grids: int,
@@ -27,7 +25,7 @@ def tile_vectors(
     """The mean prediction over ``grids`` diagonally shifted grids of tiles.
 
     Args:
-        network: a network of tiles in evaluation mode. lines: (H, W) float32 ink. mask: (H, W)
+        network: a network of tiles. lines: (H, W) float32 ink. mask: (H, W)
             bool.
         grids: 1 to 64. progress: called with the share done, 0 to 1.
 
@@ -49,10 +47,8 @@ def tile_vectors(
     weights = np.zeros((*summed.shape[:2], 1), np.float32)
     for start in range(0, len(corners), _BATCH):
         batch = corners[start : start + _BATCH]
-        tiles = torch.from_numpy(np.stack([source.cut(*corner) for corner in batch]))
-        tiles = tiles.contiguous(memory_format=torch.channels_last)
-        with torch.inference_mode(), fast_arithmetic():
-            predicted = network(tiles).float().permute(0, 2, 3, 1).numpy()
+        tiles = np.stack([source.cut(*corner) for corner in batch])
+        predicted = network.predict_tiles(tiles).transpose(0, 2, 3, 1)
         for (row, column), vectors in zip(batch, predicted, strict=True):
             area = np.s_[row + TILE : row + 2 * TILE, column + TILE : column + 2 * TILE]
             summed[area] += vectors * window

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .character import bounding_box, resize
+from .character import bounding_box
+from .resize import resize
 
 ORDER_PX = 320
 """Longest side at which depth and edges are kept; the network predicts them on fewer cells."""

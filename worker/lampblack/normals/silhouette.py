@@ -7,10 +7,12 @@ Ink-and-Ray and Monster Mash) solves for a height whose square obeys a Poisson e
 from __future__ import annotations
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
+from PIL import Image
 from scipy import ndimage, sparse
 from scipy.sparse import linalg
+
+from .resize import resize
 
 _SOLVE_PX = 320
 
@@ -83,9 +85,10 @@ def _shrink(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The mask at the resolution of the solve, with a border of outside pixels."""
     step = max(1.0, max(mask.shape) / _SOLVE_PX)
     size = [max(1, round(side / step)) for side in mask.shape]
-    planes = torch.from_numpy(mask.astype(np.float32))[None, None]
-    small = torch.nn.functional.interpolate(planes, size=size, mode="area")[0, 0].numpy() > 0.4
-    return np.pad(small, 1)
+    share = Image.fromarray(mask.astype(np.float32)).resize(
+        (size[1], size[0]), Image.Resampling.BOX
+    )
+    return np.pad(np.asarray(share) > 0.4, 1)
 
 
 def _solve_poisson(
@@ -120,8 +123,7 @@ def _complete(
     """Resize x and y to the size of ``mask``, and add the z that makes them unit vectors."""
     nearest = ndimage.distance_transform_edt(~small, return_distances=False, return_indices=True)
     filled = plane[tuple(nearest)][1:-1, 1:-1]
-    planes = torch.from_numpy(filled.transpose(2, 0, 1).copy())[None]
-    resized = torch.nn.functional.interpolate(planes, size=mask.shape, mode="bilinear")[0].numpy()
+    resized = resize(filled.astype(np.float32), mask.shape).transpose(2, 0, 1)
     length = np.maximum(np.hypot(*resized), 1.0)
     x, y = resized / length
     z = np.sqrt(np.maximum(1 - x * x - y * y, 0))

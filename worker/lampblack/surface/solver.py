@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
 from ..choices import SolverName
-from ..errors import LampblackWarning
-from .adam import inflate_adam
+from ..errors import LampblackError, LampblackWarning
 from .direct import inflate_direct
 
 NZ_FLOOR = 0.05
@@ -27,7 +26,18 @@ class Solver(Protocol):
     ) -> NDArray[np.float32]: ...
 
 
-SOLVERS: dict[str, Solver] = {"direct": inflate_direct, "adam": inflate_adam}
+def _adam(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    try:
+        from .adam import inflate_adam
+    except ImportError as error:
+        raise LampblackError(
+            "The solver adam needs a part of Lampblack that is not installed.",
+            "Install it: pip install 'lampblack[torch]'. Or leave out --solver.",
+        ) from error
+    return inflate_adam(normals, mask)
+
+
+SOLVERS: dict[str, Solver] = {"direct": inflate_direct, "adam": _adam}
 
 
 def solve(

@@ -15,7 +15,7 @@ from lampblack.cache import ArrayCache
 from lampblack.choices import DEFAULT_GRIDS, PipelineOptions
 from lampblack.drawing import Drawing
 from lampblack.drawing.palette import Palette, Swatch
-from lampblack.normals.card import load_network
+from lampblack.normals.networks.torch_network import TorchNetwork
 from lampblack.normals.predict import NormalPredictor
 from lampblack.pipeline import Pipeline
 from lampblack.surface import (
@@ -56,7 +56,7 @@ class NetworkMethod:
     """
 
     def __init__(self, weights: Path | None, grids: int = DEFAULT_GRIDS) -> None:
-        predictor = NormalPredictor(*load_network(weights)) if weights else NormalPredictor()
+        predictor = NormalPredictor(*TorchNetwork.load(weights)) if weights else NormalPredictor()
         self._predictor, self._grids = predictor, grids
         folder = TemporaryDirectory(prefix="lampblack-")
         weakref.finalize(self, folder.cleanup)

@@ -13,16 +13,9 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
-from lampblack.normals.character import (
-    COARSE,
-    SIDEWAYS,
-    canvas_for,
-    coarse_maps,
-    place,
-    resize,
-    shape_maps,
-)
+from lampblack.normals.character import COARSE, SIDEWAYS, canvas_for, coarse_maps, place, shape_maps
 from lampblack.normals.precision import fast_arithmetic
+from lampblack.normals.resize import resize
 
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
 from .character_loss import Batch, Loss, character_loss

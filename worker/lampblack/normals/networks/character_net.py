@@ -113,6 +113,16 @@ class CharacterNet(nn.Module):
             (B, 3, H, W) normals, not yet unit; (B, 1, H, W) logarithm of their concentration;
             (B, 3, H/4, W/4) depth, and the logits of the near and far side of an occlusion.
         """
+        raw, auxiliary = self.correction(fine, coarse)
+        # Double precision: in single, the last bit depends on the number of threads.
+        lumo = nn.functional.interpolate(
+            coarse[:, LUMO].double(), scale_factor=COARSE, mode="bilinear", align_corners=False
+        )
+        return lumo.float() + raw[:, :3], raw[:, 3:], auxiliary
+
+    def correction(self, fine: Tensor, coarse: Tensor) -> tuple[Tensor, Tensor]:
+        """(B, 4, H, W): what is added to Lumo's normals, and the logarithm of their concentration;
+        and (B, 3, H/4, W/4), as in ``forward``. This is the graph that ONNX Runtime runs."""
         folded = nn.functional.pixel_unshuffle(fine, COARSE)
         first = self.stem(torch.cat([folded, coarse], dim=1))
         second = self.down2(first)
@@ -128,12 +138,7 @@ class CharacterNet(nn.Module):
         else:  # bf16 would show as bands in smooth light
             with torch.autocast("cpu", enabled=False):
                 head = self.normals(first.float())
-        raw = nn.functional.pixel_shuffle(head, COARSE)
-        # Double precision: in single, the last bit depends on the number of threads.
-        lumo = nn.functional.interpolate(
-            coarse[:, LUMO].double(), scale_factor=COARSE, mode="bilinear", align_corners=False
-        )
-        return lumo.float() + raw[:, :3], raw[:, 3:], self.auxiliary(first).float()
+        return nn.functional.pixel_shuffle(head, COARSE), self.auxiliary(first).float()
 
 
 def _wider(features: Tensor) -> Tensor:

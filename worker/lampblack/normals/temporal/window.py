@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
+
+from ..resize import resize
 
 FINE_PX = 512
 """Longest side of the fine grid, for normals; the coarse grid, for lines, has half of it."""
@@ -40,25 +41,16 @@ class Window:
         cut = np.zeros((*self.size, image.shape[2]), np.float32)
         on_canvas, in_box = self._overlap(image.shape)
         cut[in_box] = image[on_canvas]
-        seen = torch.nn.functional.interpolate(
-            torch.from_numpy(cut).permute(2, 0, 1)[None],
-            size=shape,
-            mode="bilinear",
-            antialias=True,
-            align_corners=False,
-        )
-        return np.ascontiguousarray(seen[0].numpy())
+        return np.ascontiguousarray(resize(cut, shape).transpose(2, 0, 1))
 
     def to_canvas(
         self, planes: Planes, shape: tuple[int, ...]
     ) -> tuple[Planes, tuple[slice, slice]]:
         """(C, rows, columns) grid -> (h, w, C) pixels, bilinear, and their rows and columns on
         a canvas of ``shape``."""
-        whole = torch.nn.functional.interpolate(
-            torch.from_numpy(planes)[None], size=self.size, mode="bilinear", align_corners=False
-        )
+        whole = resize(planes.transpose(1, 2, 0), self.size)
         on_canvas, in_box = self._overlap(shape)
-        return whole[0].permute(1, 2, 0).numpy()[in_box], on_canvas
+        return whole[in_box], on_canvas
 
     def _overlap(self, shape: tuple[int, ...]) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
         rows = slice(max(self.top, 0), min(self.top + self.size[0], shape[0]))
