@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from .denoise import DenoiseQuality, Denoiser
 from .engine import render_passes
+from .faint_change import without_blotches
 from .passes import LightPasses
 from .stage import Stage
 from .wire import Trace
@@ -17,7 +18,6 @@ from .wire import Trace
 Floats = NDArray[np.float32]
 
 FAINT = np.float32(0.05)
-UNSEEN = 0.01  # smaller changes are residual noise: paper far from the character stays as drawn
 
 
 def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
@@ -64,8 +64,7 @@ def floor_light(
     """
     open_floor = _irradiance(free)
     ratio = (_irradiance(cast) + FAINT) / (open_floor + FAINT)
-    change = denoiser.denoise(ratio, quality) - 1
-    change -= np.clip(change, -UNSEEN, UNSEEN)
+    change = without_blotches(denoiser.denoise(ratio, quality) - 1)
     return np.maximum(open_floor + change * (open_floor + FAINT), 0), open_floor
 
 
