@@ -36,11 +36,11 @@ def test_every_error_says_what_to_do(folder: str) -> None:
 
 
 def test_a_folder_of_projects_names_one(tmp_path: Path) -> None:
-    for name in ("walk.0002.PSD", "walk.0001.psd", "notes.txt"):
+    for name in ("walk 2.PCLX", "walk 1.pclx", "notes.txt"):
         (tmp_path / name).touch()
     with pytest.raises(LampblackError, match="projects") as told:
         find_frames([tmp_path])
-    assert str(tmp_path / "walk.0001.psd") in told.value.remedy
+    assert str(tmp_path / "walk 1.pclx") in told.value.remedy
 
 
 @pytest.mark.parametrize("other", ["Pencil2D", "redraw the frame"])

@@ -26,6 +26,7 @@ from ..errors import DrawingError, LampblackWarning
 from ..files import open_regular, read_bounded, understood
 from .profile import gamma_of, to_srgb
 from .sixteen_bits import fine_picture, levels_of
+from .tiff import tiff_depth, unknown_tiff
 
 MAX_SIDE = 16384
 MAX_PIXELS = 40_000_000
@@ -44,6 +45,8 @@ _FORMATS: tuple[tuple[bytes, type[ImageFile]], ...] = (
     (b"RIFF", WebPImageFile),
     (b"II*\0", TiffImageFile),
     (b"MM\0*", TiffImageFile),
+    (b"II+\0", TiffImageFile),
+    (b"MM\0+", TiffImageFile),
     (b"GIF8", GifImageFile),
     (b"BM", BmpImageFile),
 )
@@ -111,8 +114,9 @@ def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
             if file.read(len(_PNG)) == _PNG:
                 depth, image = _check_png(file, name), _open_as(PngImageFile, file)
             else:
-                depth, image = 8, _open_other(file, name)
+                image = _open_other(file, name)
                 _check_size(*image.size, name)
+                depth = tiff_depth(image, name) if isinstance(image, TiffImageFile) else 8
             frames = getattr(image, "n_frames", 1)
             if frames > 1:
                 warnings.warn(
@@ -120,10 +124,10 @@ def read_picture(file: BinaryIO, name: str) -> NDArray[np.uint8]:
                     LampblackWarning,
                     stacklevel=2,
                 )
-            if depth == 16 and isinstance(image, PngImageFile) and image.mode in ("RGB", "RGBA"):
+            if depth == 16 and image.mode in ("RGB", "RGBA"):
                 gamma = gamma_of(image)
                 if gamma is not None:
-                    fine = fine_picture(image, lambda: _open_as(PngImageFile, file), gamma)
+                    fine = fine_picture(image, lambda: _open_as(type(image), file), gamma)
                     return _upright(fine, image)
             return _decode(image, depth, name)
     except MemoryError as error:
@@ -203,7 +207,12 @@ def _open_other(file: BinaryIO, name: str) -> ImageFile:
     start = file.read(16)
     for signature, kind in _FORMATS:
         if start.startswith(signature):
-            return _open_as(kind, file)
+            try:
+                return _open_as(kind, file)
+            except SyntaxError as error:  # what Pillow does not know, too
+                if kind is TiffImageFile:
+                    raise unknown_tiff(name, "unusual channels", str(error)) from error
+                raise
     if Path(name).suffix.lower() == ".tga":  # the one format without a signature
         return _open_as(TgaImageFile, file)
     raise DrawingError(f"{name} is not a picture that can be read.", _PLAIN_PNG)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 USUAL = 4
 """Digits of numbers whose pattern does not say."""
-_FILES = "png|jpe?g|webp|tiff?|tga|bmp|gif|exr|npy|glb|obj|ply"
+_FILES = "png|jpe?g|webp|tiff?|tga|bmp|gif|exr|npy|glb|obj|ply|ora|ps[db]|kra"
 _PLACE = re.compile(r"%0?\d*d|#+")
 _DOTTED = re.compile(rf"(?<=[^.]\.)(?=\.(?:{_FILES})$)", re.IGNORECASE)
 """Between two dots before the suffix of a file, as OpenToonz has it."""

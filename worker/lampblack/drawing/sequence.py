@@ -16,7 +16,9 @@ from .numbering import is_pattern, number_in, numbered_names, series
 
 MAX_FRAMES = 100_000
 
-_PROJECTS = (".pclx", ".pcl", ".ora", ".psd", ".psb", ".kra")
+LAYERED_SUFFIXES = (".ora", ".psd", ".psb", ".kra")
+"""Of files that hold the layers of one drawing."""
+_PROJECTS = (".pclx", ".pcl")
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?:x(\d{1,9}))?)?")
 
 
@@ -43,7 +45,8 @@ def find_frames(inputs: Sequence[str | Path]) -> list[Frame]:
     """The frames that ``inputs`` name.
 
     An input is a picture file, a folder of them, or a pattern: ``walk.%04d.png``,
-    ``walk.####.png`` or ``walk..png``, as OpenToonz has it. The frame number is at the
+    ``walk.####.png`` or ``walk..png``, as OpenToonz has it. In a pattern, and in a folder without
+    pictures, drawings with layers (``walk.%04d.psd``) are as good. The frame number is at the
     end of the name (``walk.0001.png``, ``walk0001.png``, ``walk.-0001.png``), or else at its start
     (``1-walk.png``). The frames of a folder or a pattern are sorted by number, those without one
     come last; gaps are allowed. Inputs keep their order. A file that is named twice counts once.
@@ -140,12 +143,13 @@ def select_frames(frames: Sequence[Numbered], numbers: Collection[int]) -> list[
 
 def _frames_of(path: Path) -> list[Frame]:
     if path.is_dir():
-        frames = [Frame(number_in(file), file) for file in _pictures_in(path)]
+        files = _files_in(path, PICTURE_SUFFIXES) or _files_in(path, LAYERED_SUFFIXES)
+        frames = [Frame(number_in(file), file) for file in files]
         _tell_of_series(path, frames)
-        if not frames and (layered := _layered_in(path)):
+        if not frames and (projects := sorted(_files_in(path, _PROJECTS))):
             raise DrawingError(
                 f"The folder {path} holds projects, but no pictures.",
-                f"Name one of the projects: {layered[0]}.",
+                f"Name one of the projects: {projects[0]}.",
             )
         return _in_order(frames, f"The folder {path} holds no pictures.")
     if is_pattern(path.name) and not path.exists():
@@ -177,13 +181,14 @@ def _matching(path: Path) -> list[Frame]:
     """
     if not path.parent.is_dir():
         raise DrawingError(f"There is no folder {path.parent}.", "Check its name.")
-    pictures = _pictures_in(path.parent)
+    layered = path.suffix.lower() in LAYERED_SUFFIXES
+    files = _files_in(path.parent, LAYERED_SUFFIXES if layered else PICTURE_SUFFIXES)
     for flags in (0, re.IGNORECASE):
         # The last place is meant: other digits, "#" and dots may be part of the name.
         name = re.compile(numbered_names(path.name)[-1].matching().pattern, flags)
         matches = [
             Frame(int(match[1]), file)
-            for file in pictures
+            for file in files
             if (match := name.fullmatch(file.name)) is not None
         ]
         if matches and flags:
@@ -198,12 +203,12 @@ def _matching(path: Path) -> list[Frame]:
     return _in_order(matches, f"No frames match {path}.")
 
 
-def _pictures_in(folder: Path) -> list[Path]:
+def _files_in(folder: Path, suffixes: Collection[str]) -> list[Path]:
     try:
         named = [
             file
             for file in folder.iterdir()
-            if file.suffix.lower() in PICTURE_SUFFIXES and not file.name.startswith(".")
+            if file.suffix.lower() in suffixes and not file.name.startswith(".")
         ]
         lost = sorted(file.name for file in named if file.is_symlink() and not file.exists())
     except OSError as error:
@@ -218,11 +223,6 @@ def _pictures_in(folder: Path) -> list[Path]:
             stacklevel=2,
         )
     return [file for file in named if file.is_file()]
-
-
-def _layered_in(folder: Path) -> list[Path]:
-    """The projects in a folder, which are rendered one by one."""
-    return sorted(file for file in folder.iterdir() if file.suffix.lower() in _PROJECTS)
 
 
 def _in_order(frames: Sequence[Frame], nothing: str) -> list[Frame]:

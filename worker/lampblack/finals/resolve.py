@@ -8,15 +8,18 @@ from pathlib import Path
 
 from ..choices import DeviceChoice, PipelineOptions
 from ..drawing import Frame, find_frames, load_picture, parse_frames, select_frames
+from ..drawing.numbering import is_pattern
 from ..errors import LampblackError
 from ..looks import find_style
 from ..normals.temporal.neighbours import REACH
 from ..project import is_project, read_project
+from ..project.read import PENCIL2D
 from ..project.shot import ProjectShot
 from ..project.stack import roles_of
 from ..rigs import find_rig
 from ..scene import Scene
 from ..shot import Picture, Shot, ShotFrame
+from .layered_sequence import LayeredSequence
 from .pictures import PictureShot
 from .scene_overrides import SceneOverrides, read_depth_hints, read_scene
 from .settings import RenderSettings
@@ -87,18 +90,28 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
     if scene is None and settings.scene is not None:
         scene = read_scene(Path(settings.scene))
     shot: Shot
-    if any(is_project(path) for path in settings.inputs):
+    single = False  # a frame of a project may well be blank
+    if _is_project(settings.inputs):
+        _refuse_options_of_pictures(settings)
         scene = scene or _sidecar(settings.inputs[0])
         shot = _project_shot(settings, scene)
         sources = [Path(settings.inputs[0])]
-        single = False  # a frame of a project may well be blank
     else:
         found = find_frames(settings.inputs)
-        single = len(found) == 1 and settings.sheet is None
-        mask = None if settings.mask is None else load_picture(settings.mask)
-        ink = None if settings.ink is None else load_picture(settings.ink)
-        shot = _picture_shot(settings, found, mask, ink)
         sources = [frame.path for frame in found]
+        layered = [is_project(path) for path in sources]
+        if any(layered):
+            _refuse_options_of_pictures(settings)
+            if not all(layered):
+                raise LampblackError(
+                    "Pictures and drawings with layers make no sequence.", "Render them apart."
+                )
+            shot = LayeredSequence(found, settings.roles, settings.layers)
+        else:
+            single = len(found) == 1 and settings.sheet is None
+            mask = None if settings.mask is None else load_picture(settings.mask)
+            ink = None if settings.ink is None else load_picture(settings.ink)
+            shot = _picture_shot(settings, found, mask, ink)
     frames = _chosen(shot.frames, settings.frames)
     hints = settings.depth_hints
     overrides = SceneOverrides(
@@ -134,18 +147,33 @@ def _sidecar(project: str) -> Scene | None:
     return read_scene(path) if path.exists() else None
 
 
-def _project_shot(settings: RenderSettings, scene: Scene | None) -> ProjectShot:
-    if len(settings.inputs) > 1:
-        raise LampblackError(
-            "A project is rendered on its own.", "Name one project, or pictures only."
-        )
+def _is_project(inputs: Sequence[str]) -> bool:
+    """Whether ``inputs`` name one project, and no sequence of drawings with layers.
+
+    Raises:
+        LampblackError: a project is named with something else.
+    """
+    if any(Path(path).suffix.lower() in PENCIL2D for path in inputs):
+        if len(inputs) > 1:
+            raise LampblackError(
+                "A project is rendered on its own.", "Name one project, or pictures only."
+            )
+        return True
+    one = Path(inputs[0]) if len(inputs) == 1 else None
+    return one is not None and is_project(one) and (one.exists() or not is_pattern(one.name))
+
+
+def _refuse_options_of_pictures(settings: RenderSettings) -> None:
     if settings.sheet is not None:
-        raise LampblackError("A project is no sprite sheet.", "Leave out --sheet.")
+        raise LampblackError("A drawing with layers is no sprite sheet.", "Leave out --sheet.")
     if settings.mask is not None or settings.ink is not None:
         raise LampblackError(
-            "In a project, layers say what is character and what is line.",
+            "Where there are layers, they say what is character and what is line.",
             "Leave out --mask and --ink, or name a layer: --line LAYER.",
         )
+
+
+def _project_shot(settings: RenderSettings, scene: Scene | None) -> ProjectShot:
     project, archive = read_project(settings.inputs[0])
     roles = {**(roles_of(scene) if scene is not None else {}), **settings.roles}
     return ProjectShot(project, archive, roles, settings.camera, settings.layers)

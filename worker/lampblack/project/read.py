@@ -18,6 +18,7 @@ from .easing import CURVES, LINEAR
 from .kra import read_kra
 from .ora import parse_stack
 
+PENCIL2D = (".pclx", ".pcl")
 PSD = (".psd", ".psb")
 KRA = ".kra"
 BITMAP, VECTOR, CAMERA = "1", "2", "5"
@@ -30,7 +31,7 @@ DEFAULT_CAMERA = Camera("Camera Layer", 800, 600, (CameraKey(1),))
 """What Pencil2D adds to a project of its early versions, which has none."""
 
 
-SUFFIXES = (".pclx", ".pcl", ORA, KRA, *PSD)
+SUFFIXES = (*PENCIL2D, ORA, KRA, *PSD)
 """Of all files that are read as projects."""
 
 
