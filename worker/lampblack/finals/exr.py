@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import os
 import struct
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -11,17 +13,19 @@ import OpenEXR
 from numpy.typing import NDArray
 
 from ..atomic import atomic_path
-from ..drawing.load import MAX_SIDE
 from ..errors import LampblackError, OutputError
 from ..files import open_regular, understood
 
 STAMP = "lampblack"
 DEPTH = "depth"
 
+SEAL = "lampblackSeal"
+"""The attribute with the digest of the file, in which it counts as ``_UNSEALED``."""
+_UNSEALED = b"0" * 40
+
 _MAGIC, _OTHER_LAYOUTS = 20000630, 0x1A00
-_ZIP, _ZIP_LINES = 3, 16
-"""Number of the compression, and its scan lines a block."""
 _MAX_ATTRIBUTES, _MAX_ATTRIBUTE = 256, 1 << 20
+_MAX_BYTES = 16 << 30
 
 Floats = NDArray[np.float32]
 
@@ -46,10 +50,16 @@ def save_exr(path: Path, layers: dict[str, Floats], stamp: str) -> None:
         "type": OpenEXR.scanlineimage,
         "comments": "Scene-linear, Rec. 709 primaries. Layers: see Lampblack's manual.",
         STAMP: stamp,
+        SEAL: _UNSEALED.decode(),
     }
     with atomic_path(path) as temporary:
         try:
             OpenEXR.File(header, channels).write(str(temporary))
+            with temporary.open("r+b") as file:
+                place, _ = _read_header(file)[SEAL]
+                seal = _seal_of(file, place)
+                file.seek(place)
+                file.write(seal)
         except RuntimeError as error:
             raise OutputError(
                 f"{path} could not be written.",
@@ -59,19 +69,33 @@ def save_exr(path: Path, layers: dict[str, Floats], stamp: str) -> None:
 
 
 def exr_stamp(path: Path) -> str | None:
-    """The stamp of a complete EXR of ``save_exr``; None for anything else."""
+    """The stamp of an EXR of ``save_exr`` of which no bit has changed; None for anything else."""
     try:
         with open_regular(path) as file, understood(LampblackError(f"{path} is damaged.")):
+            if os.fstat(file.fileno()).st_size > _MAX_BYTES:
+                return None
             attributes = _read_header(file)
-            return attributes[STAMP].decode() if _is_whole(file, attributes) else None
+            place, seal = attributes[SEAL]
+            return attributes[STAMP][1].decode() if _seal_of(file, place) == seal else None
     except (OSError, LampblackError):
         return None
 
 
-def _read_header(file: BinaryIO) -> dict[str, bytes]:
-    """The attributes of an OpenEXR file by name
+def _seal_of(file: BinaryIO, place: int) -> bytes:
+    """The digest of ``file``, whose seal is at ``place``."""
+    state = hashlib.blake2b(digest_size=len(_UNSEALED) // 2)
+    file.seek(0)
+    state.update(file.read(place) + _UNSEALED)
+    file.seek(len(_UNSEALED), 1)
+    while data := file.read(1 << 20):
+        state.update(data)
+    return state.hexdigest().encode()
+
+
+def _read_header(file: BinaryIO) -> dict[str, tuple[int, bytes]]:
+    """The attributes of an OpenEXR file by name, each with its place in the file
     (https://openexr.com/en/latest/OpenEXRFileLayout.html)."""
-    attributes: dict[str, bytes] = {}
+    attributes: dict[str, tuple[int, bytes]] = {}
     magic, version = struct.unpack("<II", file.read(8))
     if magic != _MAGIC or version & _OTHER_LAYOUTS:
         raise ValueError("not an image of scan lines")
@@ -79,7 +103,7 @@ def _read_header(file: BinaryIO) -> dict[str, bytes]:
         _kind, (length,) = _read_name(file), struct.unpack("<i", file.read(4))
         if not 0 <= length <= _MAX_ATTRIBUTE or len(attributes) >= _MAX_ATTRIBUTES:
             raise ValueError(f"an attribute of {length} bytes")
-        attributes[name] = file.read(length)
+        attributes[name] = file.tell(), file.read(length)
     return attributes
 
 
@@ -88,21 +112,3 @@ def _read_name(file: BinaryIO) -> str:
     while (letter := file.read(1)) not in (b"\0", b"") and len(name) < 256:
         name += letter
     return name.decode("ascii")
-
-
-def _is_whole(file: BinaryIO, attributes: dict[str, bytes]) -> bool:
-    """Whether the blocks of scan lines follow one another to the last byte; ``file`` is at their
-    table of offsets."""
-    if attributes["compression"] != bytes([_ZIP]):
-        return False
-    _, first, _, last = struct.unpack("<4i", attributes["dataWindow"])
-    count = (last - first) // _ZIP_LINES + 1
-    size = file.seek(0, 1) + 8 * count
-    offsets = struct.unpack(f"<{count}Q", file.read(8 * count)) if 0 < count <= MAX_SIDE else ()
-    for offset in offsets:
-        if offset != size:
-            return False
-        file.seek(offset)
-        _, length = struct.unpack("<iI", file.read(8))
-        size += 8 + length
-    return bool(offsets) and size == file.seek(0, 2)
