@@ -22,6 +22,7 @@ Split = tuple[Picture, Picture]
 
 _LEVEL = np.float32(255)
 _WITHIN = np.float32(0.4 / 255)
+_TINY = np.float32(1e-6)
 _CLOSE = 1e-3  # of a level: rounding of float32
 
 
@@ -107,12 +108,12 @@ def _multiplied(below: Floats, wanted: Floats) -> tuple[Floats, Floats]:
     old, new = below[:, :3], wanted[:, :3]
     kept, whole = below[:, 3:], wanted[:, 3:]
     # Rounded up as far as it rounds back: else the least bit of a dark channel decides.
-    share = (new + _WITHIN) / np.maximum(old, np.float32(1e-6))
+    share = (new + _WITHIN) / np.maximum(old, _TINY)
     shade = np.min(np.where(old > 0, share, 1), axis=1, keepdims=True)
     cover, beneath = _alphas(kept, whole, whole * (1 - np.clip(shade, 0, 1)))
     room = cover * (1 - beneath + beneath * old)
-    tint = (whole * new - beneath * (1 - cover) * old) / np.maximum(room, np.float32(1e-6))
-    brighter = (whole * new - cover * (1 - beneath)) / np.maximum(beneath, np.float32(1e-6))
+    tint = np.divide(whole * new - beneath * (1 - cover) * old, np.maximum(room, _TINY))
+    brighter = np.divide(whole * new - cover * (1 - beneath), np.maximum(beneath, _TINY))
     lifted = np.where((tint > 1) | (cover == 0), np.maximum(brighter, old), old)
     return _joined(tint, cover), _joined(lifted, beneath)
 
@@ -122,25 +123,23 @@ def _covered(below: Floats, wanted: Floats) -> tuple[Floats, Floats]:
     s S + b (1 - s) B = w W."""
     old, new = below[:, :3], wanted[:, :3]
     kept, whole = below[:, 3:], wanted[:, 3:]
-    tiny = np.float32(1e-6)
-    darker = 1 - (new + _WITHIN) / np.maximum(old, tiny)
-    lighter = (new - _WITHIN - old) / np.maximum(1 - old, tiny)
+    darker = 1 - (new + _WITHIN) / np.maximum(old, _TINY)
+    lighter = (new - _WITHIN - old) / np.maximum(1 - old, _TINY)
     change = np.clip(np.max(np.maximum(darker, lighter), axis=1, keepdims=True), 0, 1)
     cover, beneath = _alphas(kept, whole, whole * change)
-    colour = (whole * new - beneath * (1 - cover) * old) / np.maximum(cover, tiny)
+    colour = np.divide(whole * new - beneath * (1 - cover) * old, np.maximum(cover, _TINY))
     return _joined(colour, cover), _joined(np.where(cover == 0, new, old), beneath)
 
 
 def _alphas(kept: Floats, whole: Floats, least: Floats) -> tuple[Floats, Floats]:
     """The smallest alpha of a layer, at least ``least``, and that beneath it, at most ``kept``,
     that together have the alpha ``whole``; both whole bytes."""
-    tiny = np.float32(1e-6)
-    raised = (whole - kept) / np.maximum(1 - kept, tiny)
+    raised = (whole - kept) / np.maximum(1 - kept, _TINY)
     cover = np.ceil(np.maximum(least, raised) * 255 - _CLOSE) / _LEVEL
-    rest = np.rint((whole - cover) / np.maximum(1 - cover, tiny) * 255) / _LEVEL
-    enough = abs(cover + kept - cover * kept - whole) <= 0.5 / 255 + tiny
+    rest = np.rint((whole - cover) / np.maximum(1 - cover, _TINY) * 255) / _LEVEL
+    enough = abs(cover + kept - cover * kept - whole) <= 0.5 / 255 + _TINY
     beneath = np.where((cover >= 1) | enough, kept, np.clip(rest, 0, kept))
-    return cover, np.asarray(beneath, np.float32)
+    return np.asarray(cover, np.float32), np.asarray(beneath, np.float32)
 
 
 def _joined(colour: Floats, alpha: Floats) -> Floats:

@@ -60,7 +60,7 @@ def bloom_of(
     share = materials.glow[layers.labels[place]] * np.float32(strength)
     cover, albedo = layers.coverage[place], layers.albedo[place]
     if isinstance(layers, ByteLayers):
-        cover, albedo = cover.astype(np.float32) / 255, albedo.astype(np.float32) / 255
+        cover, albedo = cover.astype(np.float32) / 255.0, albedo.astype(np.float32) / 255.0
     emitted = linear(albedo) * (share * cover)[..., None]
     longest = max(scene.canvas.width, scene.canvas.height) * small[0] / (width * pixel)
     spread = np.zeros((small[1], small[0], 3), np.float32)

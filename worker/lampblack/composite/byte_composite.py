@@ -59,7 +59,7 @@ def composite_bytes(
     )
     bloom = bloom_of(layers, materials, scene, pixel)
     if bloom is not None:
-        shown = bloom.over(lit.astype(np.float32) / 255, Band(width, height, 0, height))
+        shown = bloom.over(lit.astype(np.float32) / 255.0, Band(width, height, 0, height))
         lit = np.rint(shown * 255).astype(np.uint8)
     return lit
 

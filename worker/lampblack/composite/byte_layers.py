@@ -62,7 +62,7 @@ class ByteLayers:
 
     def albedo_at(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> NDArray[np.float32]:
         """(V, 3) sRGB in 0..1 of V pixels."""
-        return self.albedo[row, column].astype(np.float32) / 255
+        return self.albedo[row, column].astype(np.float32) / 255.0
 
     @property
     def nbytes(self) -> int:

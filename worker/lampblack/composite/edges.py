@@ -72,4 +72,4 @@ def _line_width(line: Mask, most: float) -> float:
         return 1.5
     depth = depth_within(np.pad(line, 1))[1:-1, 1:-1]
     ridge = depth[line & (depth >= highest(depth, 1))]
-    return float(min(2 * np.median(ridge) + 1.5, max(most, 2.0)))
+    return float(min(2 * float(np.median(ridge)) + 1.5, max(most, 2.0)))

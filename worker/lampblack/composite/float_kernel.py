@@ -100,7 +100,7 @@ def _composite_band(
     lit = _lit_colours(drawing, shading, band, rim)
     drawn = lay_ink(drawing, drawing.ink_colour, drawing.albedo)
 
-    pixels = drawing.pixels.astype(np.float32) / 255
+    pixels = drawing.pixels.astype(np.float32) / 255.0
     coverage = drawing.coverage[..., None]
     kept = pixels[..., 3:]
     # Line art has no fill, but its character is solid: it is lit on white paper.

@@ -135,8 +135,9 @@ def _filled(plane: Floats, known: NDArray[np.bool_], step: int) -> Floats:
     """The means of what is known in squares of ``step`` elements. The surface goes on past the
     outline, so that the light there is that beside it."""
     weight = _means(known.astype(np.float32), step)
-    found = _means(np.where(known, plane, np.float32(0)), step) / np.maximum(weight, 1e-6)
-    return from_nearest(found.astype(np.float32), weight > 0) if weight.any() else found
+    sums = _means(np.where(known, plane, np.float32(0)), step)
+    found = np.divide(sums, np.maximum(weight, 1e-6), dtype=np.float32)
+    return from_nearest(found, weight > 0) if weight.any() else found
 
 
 def _means(plane: Floats, step: int) -> Floats:

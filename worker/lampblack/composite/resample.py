@@ -42,5 +42,6 @@ def _along(
     shape = [1, 1, 1]
     shape[axis] = len(wanted)
     share = (at - before).astype(np.float32).reshape(shape)
-    first = image.take(before, axis)
-    return first + share * (image.take(after, axis) - first)
+    first: NDArray[np.float32] = image.take(before, axis)
+    change: NDArray[np.float32] = share * (image.take(after, axis) - first)
+    return first + change

@@ -31,7 +31,7 @@ def _weights(factor: int) -> Floats:
     away = np.abs((np.arange(factor)[:, None] + 0.5) / factor - 0.5 - np.arange(-2, 3))
     near = (4 - 6 * away**2 + 3 * away**3) / 6
     far = np.maximum(2 - away, 0) ** 3 / 6
-    return np.where(away < 1, near, far).astype(np.float32)
+    return np.asarray(np.where(away < 1, near, far), np.float32)
 
 
 @compiled

@@ -81,7 +81,7 @@ def _by_override(pixels: NDArray[np.uint8], inside: NDArray[np.float32]) -> Cuto
 
 
 def _by_alpha(pixels: NDArray[np.uint8], drawn: Mask) -> Cutout:
-    alpha = pixels[..., 3].astype(np.float32) / 255
+    alpha = pixels[..., 3].astype(np.float32) / 255.0
     if is_line_art(drawn):
         cutout = _cover_with_paper(pixels, _enclosed(drawn), alpha)
         return replace(cutout, bare=np.full(3, 255, np.uint8))

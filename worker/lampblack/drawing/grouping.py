@@ -179,4 +179,4 @@ def _ink(framed: Picture) -> Mask:
 
 
 def _share(places: Mask, area: Mask) -> float:
-    return np.count_nonzero(places & area) / max(1, np.count_nonzero(places))
+    return float(np.mean(area[places])) if places.any() else 0.0

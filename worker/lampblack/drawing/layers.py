@@ -53,9 +53,9 @@ def separate_layers(
     touched = highest(lines, 2) & (cutout.coverage > 0)
     fill = _continue_fill(cutout, touched, lines)
     rows, columns = np.nonzero(touched if given is None else given > 0)
-    pixel = colour[rows, columns].astype(np.float32) / 255
-    under = fill[rows, columns].astype(np.float32) / 255
-    over = _pure_ink(colour, lines)[rows, columns].astype(np.float32) / 255
+    pixel = colour[rows, columns].astype(np.float32) / 255.0
+    under = fill[rows, columns].astype(np.float32) / 255.0
+    over = _pure_ink(colour, lines)[rows, columns].astype(np.float32) / 255.0
     if given is None:
         share = _share(pixel, under, over)
         middle = lowest(lines, 1)

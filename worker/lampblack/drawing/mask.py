@@ -53,10 +53,10 @@ def _painted(
             f"but the drawing is {size[0]} x {size[1]}.",
             "Export both at the same size.",
         )
-    alpha = picture[..., 3].astype(np.float32) / 255
+    alpha = picture[..., 3].astype(np.float32) / 255.0
     if alpha.min() < 0.5:
         return alpha
-    level: NDArray[np.float32] = picture[..., :3].mean(axis=2, dtype=np.float32) / 255
+    level: NDArray[np.float32] = picture[..., :3].mean(axis=2, dtype=np.float32) / 255.0
     return level if white else 1 - level
 
 

@@ -49,7 +49,7 @@ def _highest_across(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
 def lowest(image: NDArray[Sample], reach: int) -> NDArray[Sample]:
     """The least value in the same square, for bool and unsigned images. Pixels beyond the edge
     count as the type's greatest value."""
-    return np.asarray(~highest(~image, reach))
+    return np.asarray(np.invert(highest(np.invert(image), reach)))
 
 
 def depth_within(area: Mask) -> NDArray[np.float32]:

@@ -71,7 +71,7 @@ def unfilled(pixels: Pixels, drawn: Mask) -> Mask:
         if part not in lines:
             inside = drawn[window] & (parts[window] == part)
             lines[part] = is_line_art(inside)
-        figure = np.count_nonzero(parts[window] == part)
+        figure = int(np.count_nonzero(parts[window] == part))
         if lines[part] or _holds_more(hole) or _is_eye(pixels, drawn, box, hole, figure):
             found[box] |= hole
     rim = highest(found, 2) & ~highest(outside, 1) if found.any() else found

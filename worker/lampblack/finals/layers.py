@@ -101,7 +101,7 @@ def seen_layers(shot: Shot, frame: ShotFrame, lit: Layers | NDArray[np.uint8]) -
     """The layers of the EXR of ``frame``, by name, as its camera sees them. A blank cel, (H, W, 4)
     sRGB, has only the picture."""
     if not isinstance(lit, Layers):
-        return {"": scene_linear(shot.finish(frame, (lit / np.float32(255))))}
+        return {"": scene_linear(shot.finish(frame, lit.astype(np.float32) / 255.0))}
     camera = shot.camera(frame)
     size = lit.lit.shape[1], lit.lit.shape[0]
     if shot.canvas is not None:

@@ -38,7 +38,7 @@ def mean_planes(
     for side in smaller:
         rough = extend_outside(*character_planes(network, side, lines, mask))
         planes += resize(rough, seen.shape)
-    return planes / len(sides), seen
+    return planes / float(len(sides)), seen
 
 
 def character_planes(
@@ -104,6 +104,7 @@ def character_input(
     small = share > 0.5
     if not small.any():
         small = share >= share.max()
-    ink = np.clip(placed[..., 0] / np.maximum(share, 0.25), 0, 1) * small
-    fine = np.stack([ink, small.astype(np.float32)])[None]
+    inside = small.astype(np.float32)
+    ink = np.clip(np.divide(placed[..., 0], np.maximum(share, 0.25)), 0, 1) * inside
+    fine = np.stack([ink, inside])[None]
     return fine.astype(np.float32), coarse_maps(shape_maps(small), ink)[None], small

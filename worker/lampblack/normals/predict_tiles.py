@@ -55,5 +55,5 @@ def tile_vectors(
             weights[area] += window
         progress((start + len(batch)) / len(corners))
     inner = np.s_[TILE : TILE + height, TILE : TILE + width]
-    result: NDArray[np.float32] = summed[inner] / np.maximum(weights[inner], 1e-6)
+    result: NDArray[np.float32] = np.divide(summed[inner], np.maximum(weights[inner], 1e-6))
     return result

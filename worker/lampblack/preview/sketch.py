@@ -78,7 +78,7 @@ class SketchedSurface:
         """A light of power 1, in white: irradiance over pi."""
         ways = towards(light, scene.canvas, self.places)
         strength = open_light(light, scene.canvas, self.normals, ways)
-        distance = np.maximum(np.linalg.norm(ways, axis=2), 1e-3)
+        distance = np.asarray(np.maximum(np.linalg.norm(ways, axis=2), 1e-3), np.float32)
         spread = np.minimum(light.size / 2 / distance, 1)
         return LightPasses(
             _grey(strength * self._reached(ways / distance[..., None], spread)), _DARK

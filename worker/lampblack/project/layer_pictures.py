@@ -71,8 +71,8 @@ class LayerPictures:
             if picture.size:
                 part = _part(seen, picture, place)
                 part += picture[..., 3] / np.float32(255) * (picture[..., 0] - part)
-            seen = 1 - np.float32(mask.density) * (1 - seen / 255)
-            shown = seen if shown is None else shown * seen
+            shows = 1 - np.float32(mask.density) * (1 - seen / 255.0)
+            shown = shows if shown is None else shown * shows
         return shown
 
     def digest(self, name: str) -> str:

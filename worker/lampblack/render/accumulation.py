@@ -85,7 +85,7 @@ def _multiplied(view: dict[str, Floats], spp: int) -> dict[str, Floats]:
 
 def _divided(sums: dict[str, Floats], spp: int) -> dict[str, Floats]:
     """Summed passes, as Cycles would give them for all ``spp`` samples in one render."""
-    mean = {name: total / spp for name, total in sums.items()}
+    mean = {name: total / float(spp) for name, total in sums.items()}
     for name in mean:
         colour = mean.get(_colour_of(name))
         if colour is not None:

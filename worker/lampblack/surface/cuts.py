@@ -123,7 +123,7 @@ def _sides(pixels: Ints, values: Floats, rows: int, columns: int) -> tuple[Float
                 side[r + dr, c + dc] += across / np.float32(1 + dr * dr + dc * dc)
     for k in range(len(pixels)):
         side[pixels[k, 0] - top, pixels[k, 1] - left] = np.nan
-    return side, top, left
+    return side, int(top), int(left)
 
 
 @compiled

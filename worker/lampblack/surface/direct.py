@@ -62,7 +62,7 @@ def inflate_direct(
     """
     height = np.zeros(mask.shape, np.float32)
     if mask.any():
-        count = np.count_nonzero(mask)
+        count = int(np.count_nonzero(mask))
         number = np.full(mask.shape, -1, np.int32)
         number[mask] = np.arange(count, dtype=np.int32)
         cuts = Cuts.none((1, 1)) if cuts is None else cuts

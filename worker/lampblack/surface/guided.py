@@ -41,7 +41,8 @@ def guided_filter(
     z = height[::subsample, ::subsample].astype(np.float64)
     weight = mask[::subsample, ::subsample].astype(np.float64)
     size = 2 * max(round(radius / subsample), 1) + 1
-    row, column = (axis * float(subsample) for axis in np.indices(z.shape))
+    places = (np.arange(count) * float(subsample) for count in z.shape)
+    row, column = np.meshgrid(*places, indexing="ij")
     share = ndimage.uniform_filter(weight, size, mode="constant")
     norm = weight / np.maximum(share, 1e-9)
 

@@ -178,9 +178,12 @@ def _small_of(prediction: Prediction, mask: NDArray[np.bool_], lines: Floats) ->
         whole = np.pad(cut, more + [(0, 0)] * (cut.ndim - 2))
         return whole.reshape(counts[0], by, counts[1], by, *cut.shape[2:])
 
-    share = blocks(mask).mean(axis=(1, 3), dtype=np.float32)
+    def mean(plane: NDArray[Any]) -> Floats:
+        return np.asarray(blocks(plane).mean(axis=(1, 3), dtype=np.float32))
+
+    share = mean(mask)
     inside = share >= min(0.5, float(share.max()))
-    covered = np.maximum(share, 1e-6)
+    covered = np.asarray(np.maximum(share, 1e-6), np.float32)
     unknown = np.zeros(mask.shape, np.float32)
     depth = unknown if prediction.depth is None else prediction.depth
     edge = unknown if prediction.edge is None else prediction.edge
@@ -189,12 +192,12 @@ def _small_of(prediction: Prediction, mask: NDArray[np.bool_], lines: Floats) ->
         corner=(top, left),
         by=by,
         length=max(sides) / by,
-        normals=usable_normals(blocks(prediction.normals).mean(axis=(1, 3)), inside),
+        normals=usable_normals(mean(prediction.normals), inside),
         mask=inside,
-        depth=blocks(depth).mean(axis=(1, 3)) / covered / np.float32(by),
-        edge=blocks(edge).mean(axis=(1, 3)) / covered,
+        depth=mean(depth) / covered / np.float32(by),
+        edge=mean(edge) / covered,
         ink=(blocks(lines).max(axis=(1, 3)) > INK) & inside,
-        votes=None if votes is None else blocks(votes).mean(axis=(1, 3)),
+        votes=None if votes is None else mean(votes),
     )
 
 

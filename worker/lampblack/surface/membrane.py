@@ -85,7 +85,7 @@ def _solved(
 ) -> tuple[NDArray[np.float64], Mask]:
     """The surface at each pixel of the region, and which of these are joined to what is around.
     ``pull`` is the weight with which each is drawn to 0, against 1 of a link."""
-    count = np.count_nonzero(region)
+    count = int(np.count_nonzero(region))
     number = np.full(region.shape, -1, np.int32)
     number[region] = np.arange(count, dtype=np.int32)
     starts, ends, weights, inverse, rhs, held = _link(

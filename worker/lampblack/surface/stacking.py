@@ -81,7 +81,7 @@ class Base:
     top: float
     spacing: float
 
-    def at(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> Floats:  # type: ignore[type-arg]
+    def at(self, x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> Floats:
         """The base at places of the drawing, in pixels."""
         where = [(y - self.top) / self.spacing, (x - self.left) / self.spacing]
         found: Floats = ndimage.map_coordinates(self.nodes, where, order=1, mode="nearest")

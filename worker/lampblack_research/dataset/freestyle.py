@@ -87,7 +87,7 @@ def _read(picture: Path, size: tuple[int, int]) -> NDArray[np.float32] | None:
     if not picture.exists():
         return None
     with Image.open(picture) as image:
-        pixels = np.asarray(image.convert("RGBA"), np.float32) / 255
+        pixels = np.asarray(image.convert("RGBA"), np.float32) / 255.0
     if pixels.shape[:2] != size:
         return None
     ink: NDArray[np.float32] = pixels[..., 3] * (1 - pixels[..., :3].mean(axis=2))

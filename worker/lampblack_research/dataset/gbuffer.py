@@ -117,8 +117,8 @@ def trace_placed(placed: Placed) -> GBuffer:
         return out.reshape(height, width, *values.shape[1:])
 
     return GBuffer(
-        normals=image(smooth),
-        depth=image(top - hit["tfar"][inside]),
+        normals=image(smooth.astype(np.float32)),
+        depth=image((top - hit["tfar"][inside]).astype(np.float32)),
         mask=inside.reshape(height, width),
-        face_normals=image(flat),
+        face_normals=image(flat.astype(np.float32)),
     )

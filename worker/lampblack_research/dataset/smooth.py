@@ -63,7 +63,7 @@ def _vertex_normals(vertices: NDArray[np.float32], faces: NDArray[np.int64]) -> 
 
 
 def _unit(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
-    unit: NDArray[np.float32] = vectors / np.maximum(
-        np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12
+    unit: NDArray[np.float32] = np.divide(
+        vectors, np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
     )
     return unit

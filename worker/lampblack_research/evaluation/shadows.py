@@ -75,8 +75,8 @@ class ShadowTruth:
         upright[:, 1] += self._rows
         ours = self._trace(upright, faces)[0] & self._counted
         true = self._shadowed & self._counted
-        both = np.count_nonzero(ours & true)
-        return ShadowFigures(*(_share(both, np.count_nonzero(all_)) for all_ in (true, ours)))
+        both = int((ours & true).sum())
+        return ShadowFigures(*(_share(both, int(all_.sum())) for all_ in (true, ours)))
 
     def _trace(
         self, vertices: NDArray[np.float32], faces: NDArray[np.int32]

@@ -53,7 +53,7 @@ def place_on_canvas(
     side = int(rng.choice(sides))
     box = _box(triple.mask)
     inside = triple.mask[box].astype(np.float32)
-    planes = [triple.normals[box].astype(np.float32) / 127 * inside[..., None]]
+    planes = [triple.normals[box].astype(np.float32) / 127.0 * inside[..., None]]
     planes += [triple.drawings[:, *box].transpose(1, 2, 0) / np.float32(255) * inside[..., None]]
     depth = triple.depth[box] / np.float32(DEPTH_STEPS * max(inside.shape)) * inside
     planes += [depth[..., None], inside[..., None]]
@@ -71,13 +71,13 @@ def place_on_canvas(
     share = rest[..., 1:2]
     mask = share[..., 0] > 0.5
     normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-6)
-    depth = rest[..., 0] / np.maximum(share[..., 0], 0.25)
+    depth = np.divide(rest[..., 0], np.maximum(share[..., 0], 0.25))
     depth = np.where(mask, depth - depth[mask].mean(), 0)
     cells = np.stack([depth, *rest[..., 2:].transpose(2, 0, 1)])
     h, w = (n // COARSE for n in mask.shape)
     cells = cells.reshape(3, h, COARSE, w, COARSE)
     auxiliary = np.concatenate([cells[:1].mean((2, 4)), cells[1:].max(axis=(2, 4)) > 0.25])
-    inks = np.clip(inks / np.maximum(share, 0.25), 0, 1) * mask[..., None]
+    inks = np.clip(np.divide(inks, np.maximum(share, 0.25)), 0, 1) * mask[..., None]
     return CanvasCharacter(
         np.round(inks.transpose(2, 0, 1) * 255).astype(np.uint8),
         mask,

@@ -50,7 +50,7 @@ class View:
         truth[:, top - row : bottom - row, left - column : right - column] = self.normals[
             top:bottom, left:right
         ].transpose(2, 0, 1) / np.float32(127)
-        tile = TileSource(self.lines / np.float32(255), self.mask).cut(row, column)
+        tile = TileSource(self.lines.astype(np.float32) / 255.0, self.mask).cut(row, column)
         if rng.random() < 0.5:
             tile, truth = tile[:, :, ::-1].copy(), truth[:, :, ::-1].copy()
             truth[0] *= -1

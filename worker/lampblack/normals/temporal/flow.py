@@ -41,7 +41,7 @@ def dense_flow(fixed: Planes, moving: Planes) -> Planes:
         flow = np.zeros((2, *fixed.shape[1:]), np.float32)
     else:
         coarse = dense_flow(_halved(fixed), _halved(moving))
-        flow = 2 * sampled(coarse, np.indices(fixed.shape[1:], np.float32) / 2)
+        flow = 2 * sampled(coarse, np.indices(fixed.shape[1:], np.float32) / 2.0)
     at = np.indices(fixed.shape[1:], np.float32)
     for _ in range(_WARPS):
         change = _change(fixed, sampled(moving, at + flow), flow, _SWEEPS)

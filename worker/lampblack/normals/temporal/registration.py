@@ -46,7 +46,7 @@ class Registration:
     def fine(self) -> Registration:
         """The same registration on the fine grids of both drawings."""
         rows, columns = self.trust.shape
-        at = (np.indices((2 * rows, 2 * columns), np.float32) - 0.5) / 2
+        at = np.asarray(np.indices((2 * rows, 2 * columns)) / 2 - 0.25, np.float32)
         seen = sampled(np.concatenate([self.places, self.trust[None]]), at)
         return Registration(2 * seen[:2] + 0.5, seen[2])
 

@@ -154,7 +154,7 @@ def _clothes(
                 [flare * wide, -long],
             ],
             0.03,
-            folds=builder.rng.integers(4, 14),
+            folds=int(builder.rng.integers(4, 14)),
             depth=builder.between(0, 0.14),
             phase=builder.between(0, 6),
         )
@@ -165,7 +165,7 @@ def _clothes(
             frame,
             [[0.8 * shoulder, 0.1], [1.6 * shoulder, -0.1], [flare * wide, -long]],
             0.03,
-            folds=builder.rng.integers(5, 14),
+            folds=int(builder.rng.integers(5, 14)),
             depth=builder.between(0.03, 0.12),
             phase=builder.between(0, 6),
             arc=builder.between(150, 260),

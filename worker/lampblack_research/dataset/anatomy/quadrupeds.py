@@ -114,7 +114,7 @@ def _back(builder: CharacterBuilder, trunk: Ball) -> None:
             np.diag([1.1, 1, builder.between(1, 1.15) * max(1.0, z / x * 0.8)]),
             [[0, 1.2 * y], [0.8 * x, 0.9 * y], [1.25 * x, 0.1 * y], [1.4 * x, -0.1 * y]],
             0.1 * y,
-            folds=builder.rng.integers(3, 9),
+            folds=int(builder.rng.integers(3, 9)),
             depth=builder.between(0, 0.06),
         )
     elif kind == "hump":
