@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lampblack.bench.memory import processor_seconds
 from lampblack.composite.resample import Band, enlarge
 from lampblack.errors import RenderError
 from lampblack.render.client import RenderChild
@@ -62,6 +63,17 @@ def test_ambient_shows_an_open_surface_as_drawn(child: RenderChild) -> None:
     assert passes.lights == ()
     assert passes.ambient.diffuse[4:-4, 4:-4].mean() == pytest.approx(1, abs=0.005)
     assert not passes.ambient.glossy.any()
+
+
+def test_it_tells_what_the_time_was_spent_on(child: RenderChild) -> None:
+    child.start()
+    began, before = processor_seconds(child.pid or 0), dict(child.spent)
+    child.render(RenderRequest(plane(48, 64), Canvas(48, 64), (), quality=quality(64)))
+    spent = {name: seconds - before.get(name, 0) for name, seconds in child.spent.items()}
+    assert set(spent) == {"mesh", "cycles", "denoiser"}
+    assert all(seconds > 0 for seconds in spent.values())
+    # The kernel counts in hundredths of a second.
+    assert sum(spent.values()) <= processor_seconds(child.pid or 0) - began + 0.05
 
 
 def test_each_source_is_traced_alone(child: RenderChild) -> None:

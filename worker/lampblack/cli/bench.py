@@ -37,6 +37,18 @@ def bench(
         bool,
         typer.Option("--reference", help="For final: measure the noise too; takes minutes."),
     ] = False,
+    compare: Annotated[
+        Path | None,
+        typer.Option(
+            "--compare",
+            metavar="DIR",
+            help="Virtual environment of another version: run both in turns, and print the "
+            "ratios, this version to the other.",
+        ),
+    ] = None,
+    rounds: Annotated[
+        int, typer.Option(min=2, max=100, help="For --compare: how often both are run.")
+    ] = 5,
     as_json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")] = False,
 ) -> None:
     """Measure speed on this machine.
@@ -45,6 +57,11 @@ def bench(
     """
     from ..drawing import decompose_drawing, load_picture
 
+    if compare is not None:
+        arguments = [what, *([str(drawing)] if drawing else [])]
+        arguments += ["--scene", str(scene)] if scene else []
+        _compare(compare, [*arguments, *(["--reference"] if reference else [])], rounds, as_json)
+        return
     if what == "animation":
         from ..bench.animation import bench_animation
 
@@ -72,6 +89,34 @@ def bench(
 
         figures = bench_final(picture, _scene(scene, drawing, picture.shape), reference=reference)
     _show(figures, as_json)
+
+
+def _compare(other: Path, arguments: list[str], rounds: int, as_json: bool) -> None:
+    import msgspec
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..bench.compare import alternate, installed, ratios
+    from .console import progress_bar
+
+    here, there = (installed(where, arguments) for where in (Path(sys.prefix), other))
+    pairs = []
+    with progress_bar() as bar:
+        task = bar.add_task("Comparing", total=rounds)
+        for pair in alternate(here, there, rounds):
+            pairs.append(pair)
+            bar.advance(task)
+    found = ratios(pairs)
+    if as_json:
+        sys.stdout.write(msgspec.json.encode(found).decode() + "\n")
+        return
+    table = Table("figure", "here", "there", "here / there", "95 % interval")
+    for name, each in found.items():
+        interval = f"{each.low:.3f} to {each.high:.3f}"
+        table.add_row(
+            name, f"{each.here:,.4g}", f"{each.there:,.4g}", f"{each.ratio:.3f}", interval
+        )
+    Console(width=120).print(table)
 
 
 def _show(figures: dict[str, float], as_json: bool) -> None:

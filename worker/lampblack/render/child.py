@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import NoReturn, cast
 
 from ..choices import DeviceChoice
+from .spent import take_spent
 from .wire import (
     Accumulate,
     Array,
@@ -56,11 +57,12 @@ def main() -> NoReturn:
                 stage.set_surface(arrays[:5], dict(emitters))
                 accumulation = Accumulation()
             elif isinstance(message, Accumulate):
-                send(answers, Traced(), accumulation.accumulate(stage, denoiser, message))
+                light = accumulation.accumulate(stage, denoiser, message)
+                send(answers, Traced(take_spent()), light)
             elif isinstance(message, Trace):
-                light = trace(stage, denoiser, message)
-                found = (light.diffuse, light.glossy, light.floor, light.open_floor)
-                send(answers, Traced(), [array for array in found if array is not None])
+                passes = trace(stage, denoiser, message)
+                found = (passes.diffuse, passes.glossy, passes.floor, passes.open_floor)
+                send(answers, Traced(take_spent()), [array for array in found if array is not None])
             elif isinstance(message, SaveBlend):
                 from .blend import save_blend
 

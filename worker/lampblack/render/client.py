@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import warnings
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from io import FileIO
 from pathlib import Path
@@ -28,6 +29,7 @@ from ..scene import Ambient, AreaLight
 from .device import USED, memory_path
 from .passes import DARK, LightPasses, Passes
 from .request import RenderRequest, Surface
+from .spent import Activity
 from .watched_pipe import WatchedPipe, unblocked
 from .wire import (
     Accumulate,
@@ -69,6 +71,9 @@ class RenderChild:
         device: what it traces on. A card that is not there, or that is not right, is replaced by
             the processor, with a warning.
 
+    Attributes:
+        spent: processor seconds of all children so far, by activity.
+
     Example:
         >>> with RenderChild() as child:
         ...     passes = child.render(frame_request(drawing.size, surface, scene))
@@ -84,6 +89,7 @@ class RenderChild:
         self._log: IO[bytes] | None = None
         self._folder: Path | None = None
         self._loaded = b""
+        self.spent: dict[Activity, float] = defaultdict(float)
 
     def __enter__(self) -> Self:
         self.start()
@@ -331,6 +337,8 @@ class RenderChild:
             )
         if not isinstance(message, Traced) or len(arrays) not in (0, 2, 4):
             raise WireError(f"an unexpected {type(message).__name__}")
+        for activity, seconds in message.spent.items():
+            self.spent[activity] += seconds
         return tuple(array.astype(np.float32, copy=False) for array in arrays)
 
     def _pipe(self, name: Literal["stdin", "stdout"]) -> WatchedPipe:

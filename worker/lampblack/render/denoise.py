@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..choices import DeviceKind
+from .spent import spent_on
 
 FLOAT3 = 3
 MARGIN = 8  # mirrored around the image, whose borders the network otherwise gets wrong
@@ -74,7 +75,8 @@ class Denoiser:
             lib.oidnSetFilterBool(rt, b"hdr", True)
             lib.oidnSetFilterInt(rt, b"quality", QUALITY[quality])
             lib.oidnCommitFilter(rt)
-            lib.oidnExecuteFilter(rt)
+            with spent_on("denoiser"):
+                lib.oidnExecuteFilter(rt)
             self._check()
             if self._on_card:
                 lib.oidnReadBuffer(buffers[1], 0, output.nbytes, output.ctypes.data)

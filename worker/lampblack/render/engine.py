@@ -12,6 +12,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .spent import spent_on
+
 
 def render_passes(scene: Any) -> dict[str, NDArray[np.float32]]:
     """Render ``scene`` with Cycles. Returns its passes by Blender's names, (h, w, channels)
@@ -29,7 +31,8 @@ def render_passes(scene: Any) -> dict[str, NDArray[np.float32]]:
     plain_render = cycles.render
 
     def render_and_read(engine: Any, depsgraph: Any) -> None:
-        plain_render(engine, depsgraph)
+        with spent_on("cycles"):
+            plain_render(engine, depsgraph)
         for layer_pass in engine.get_result().layers[0].passes:
             pixels = np.zeros(width * height * layer_pass.channels, np.float32)
             layer_pass.rect.foreach_get(pixels)

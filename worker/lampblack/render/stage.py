@@ -21,6 +21,7 @@ from .cards import use_card
 from .device import Card
 from .glow import add_emitter, remove_emitter
 from .quality import Sampling
+from .spent import spent_on
 
 CAMERA_HEIGHT = 60.0
 FLOOR_REACH = 200.0
@@ -98,7 +99,9 @@ class Stage:
         """Build the relief's mesh for ``canvas``, unless it is there already."""
         if canvas == self._canvas or self._surface is None:
             return
-        old, mesh = self._character.data, _character_mesh(self._surface, canvas)
+        with spent_on("mesh"):
+            mesh = _character_mesh(self._surface, canvas)
+        old = self._character.data
         self._character.data = self._twin.data = mesh
         for material in old.materials:
             bpy.data.materials.remove(material)

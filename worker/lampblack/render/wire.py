@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..choices import DeviceKind, GlowName
 from ..scene import Ambient, AreaLight, Canvas, Floor
 from .quality import Quality
+from .spent import Activity
 
 MAX_HEADER_BYTES = 1 << 20
 MAX_ARRAY_BYTES = 1 << 32
@@ -94,7 +95,9 @@ class SaveBlend(msgspec.Struct, tag=True):
 
 class Traced(msgspec.Struct, tag=True):
     """Arrays: diffuse, glossy and, with a floor, floor and open_floor; after Accumulate, those of
-    its subject."""
+    its subject. ``spent`` are the processor seconds since the last answer."""
+
+    spent: dict[Activity, float] = {}
 
 
 class Failed(msgspec.Struct, tag=True):
