@@ -1,5 +1,7 @@
 #include "host/frame_queue.h"
 
+#include "own_folder.h"
+
 #include <QDir>
 #include <QElapsedTimer>
 #include <QImageReader>
@@ -30,7 +32,7 @@ QImage readPng(const QString& path)
 
 FrameQueue::FrameQueue(const Parts& parts, Idleness* idleness, QObject* parent)
     : QObject(parent), mParts(parts), mIdleness(idleness), mRows(parts), mDialog(parts),
-      mFolder(QDir::temp().filePath(QStringLiteral("lampblack-XXXXXX")))
+      mFolder(ownFolderTemplate())
 {
     mReaders.setMaxThreadCount(1);
     mTimer.setSingleShot(true);

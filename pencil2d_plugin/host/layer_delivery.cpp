@@ -2,6 +2,7 @@
 
 #include "host/layer_import.h"
 #include "host/project_file.h"
+#include "own_folder.h"
 
 #include <QCryptographicHash>
 #include <QDir>
@@ -105,8 +106,7 @@ QStringList namesOf(const QVector<Layer>& layers)
 } // namespace
 
 LayerDelivery::LayerDelivery(const Parts& parts, Idleness* idleness, QObject* parent)
-    : QObject(parent), mParts(parts), mIdleness(idleness), mRows(parts),
-      mFolder(QDir::temp().filePath(QStringLiteral("lampblack-layer-XXXXXX")))
+    : QObject(parent), mParts(parts), mIdleness(idleness), mRows(parts), mFolder(ownFolderTemplate())
 {
     mWriters.setMaxThreadCount(1);
     mTimer.setSingleShot(true);

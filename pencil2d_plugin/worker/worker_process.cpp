@@ -1,5 +1,6 @@
 #include "worker/worker_process.h"
 
+#include "own_folder.h"
 #include "protocol/connection.h"
 #include "protocol/messages.h"
 
@@ -121,7 +122,7 @@ void WorkerProcess::launch()
         giveUp(notInstalled(mInterpreter, QStringLiteral("There is no such program.")));
         return;
     }
-    mFolder = std::make_unique<QTemporaryDir>(QDir::tempPath() + QStringLiteral("/lampblack-XXXXXX"));
+    mFolder = std::make_unique<QTemporaryDir>(ownFolderTemplate());
     if (!mFolder->isValid())
     {
         giveUp({tr("Lampblack's worker could not be started."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -227,3 +228,13 @@ def test_lights_past_the_last_are_refused(
 def test_names_are_told_as_they_are(run: Run, tmp_path: Path) -> None:
     (tmp_path / "bad [red] [x].png").write_text("")
     assert "bad [red] [x].png" in run("render", tmp_path, "-o", tmp_path / "lit").err
+
+
+def test_names_do_not_steer_the_terminal(run: Run, tmp_path: Path) -> None:
+    for name in (b"a\x1b[2J\x1b]0;t\x07.png", b"b\r\x9b.png", b"c\xff\xfe.png"):
+        (tmp_path / os.fsdecode(name)).write_text("")
+    told = run("render", tmp_path, "-o", tmp_path / "lit").err
+    assert "a\\x1b[2J" in told
+    assert "b\\x0d" in told
+    assert "c\\udcff\\udcfe.png" in told
+    assert not any(control in told for control in ("\x1b[2J", "\x07", "\r", "\x9b"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -105,6 +106,17 @@ def test_braces_in_names_are_only_names(run: Run, tmp_path: Path) -> None:
     assert "{ {v2} }" in job.name
     values = {name: each.value for name, each in job.parameters.items()}
     assert "--background={{Param.Lampblack}}" in values.values()
+
+
+def test_the_command_to_try_is_quoted(run: Run, tmp_path: Path) -> None:
+    """It may be pasted into a shell, whatever the names in it are."""
+    output = tmp_path / "x;touch made '$(id)"
+    template = tmp_path / "elsewhere" / "job.yaml"
+    template.parent.mkdir()
+    printed = run("job", walk(tmp_path, [1]), "-o", template, "--to", output)
+    (line,) = [line for line in printed.err.splitlines() if "Try it here: " in line]
+    words = shlex.split(line.partition("Try it here: ")[2])
+    assert f"Output={output.absolute()}" in words
 
 
 def test_jobs_that_cannot_be_are_told(run: Run, tmp_path: Path, ball_png: Path) -> None:

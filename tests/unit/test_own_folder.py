@@ -20,6 +20,8 @@ def test_the_folders_of_ended_processes_are_removed(tmp_path: Path) -> None:
                            capture_output=True, text=True, check=True).stdout.strip()  # fmt: skip
     left = tmp_path / f"lampblack-{ended}-abcd1234"
     (left / "inside").mkdir(parents=True)
+    of_pencil2d = tmp_path / f"lampblack-{ended}-qtXyZabC"
+    of_pencil2d.mkdir()
     others = [tmp_path / f"lampblack-{os.getpid()}-abcd1234", tmp_path / "lampblack-1x-abcd1234"]
     others += [tmp_path / f"lampblack-{ended}", tmp_path / f"blender-{ended}-abcd1234"]
     for folder in others:
@@ -31,6 +33,7 @@ def test_the_folders_of_ended_processes_are_removed(tmp_path: Path) -> None:
     assert made.stat().st_mode & 0o777 == 0o700
     assert len(made.name) <= NAME_BYTES
     assert not left.exists()
+    assert not of_pencil2d.exists()
     assert all(folder.is_dir() for folder in others)
     assert (others[0] / "kept").exists(), "a link is not followed"
 

@@ -1,4 +1,5 @@
 // The parts of WorkerSession, each alone.
+#include "own_folder.h"
 #include "protocol/planes.h"
 #include "worker/frame_list.h"
 #include "worker/frame_store.h"
@@ -46,6 +47,16 @@ class TestWorkerParts : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
+    void aFolderIsNamedAsTheWorkerExpects()
+    {
+        // `lampblack/own_folder.py` removes those of processes that have ended.
+        const QTemporaryDir folder(ownFolderTemplate());
+        QVERIFY(folder.isValid());
+        const QString own = QStringLiteral("lampblack-%1-\\w{8}").arg(QCoreApplication::applicationPid());
+        const QString name = QFileInfo(folder.path()).fileName();
+        QVERIFY(QRegularExpression(QRegularExpression::anchoredPattern(own)).match(name).hasMatch());
+    }
+
     void theNewestSceneGoesWhereTheFirstStood()
     {
         Outbox outbox;

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import signal
 import sys
 import warnings
@@ -25,6 +26,8 @@ EXIT_UNLIT = 3
 """Finished, but at least one frame was passed through unlit."""
 EXIT_INTERRUPTED = 130
 
+_CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
 
 @functools.cache
 def _console() -> Console:
@@ -34,8 +37,10 @@ def _console() -> Console:
 
 
 def say(text: str, style: str = "") -> None:
-    """Print a line."""
-    _console().print(text, style=style, markup=False)
+    """Print a line. What would steer the terminal, which names may hold, is spelt out."""
+    sound = text.encode("utf-8", "backslashreplace").decode()
+    spelt = _CONTROLS.sub(lambda control: f"\\x{ord(control[0]):02x}", sound)
+    _console().print(spelt, style=style, markup=False)
 
 
 def print_error(error: LampblackError, subject: str = "") -> None:
