@@ -53,18 +53,13 @@ void JsonReader::text(const char* name, QString& value, int shortest, int longes
 void JsonReader::texts(const char* name, QStringList& values, int most, int longest,
                        const QRegularExpression& pattern, Need need)
 {
-    if (!wanted(name, need))
+    const std::optional<QJsonArray> array = takeArray(name, 0, most, need);
+    if (!array)
     {
-        return;
-    }
-    const QJsonArray array = at(name).toArray();
-    if (!at(name).isArray() || array.size() > most)
-    {
-        refuse(name, "not a list, or too long");
         return;
     }
     values.clear();
-    for (const QJsonValue& item : array)
+    for (const QJsonValue& item : *array)
     {
         values.append(item.toString());
         if (!item.isString() || values.last().toUcs4().size() > longest ||
@@ -78,24 +73,15 @@ void JsonReader::texts(const char* name, QStringList& values, int most, int long
 void JsonReader::reals(const char* name, QVector<double>& values, int most, double low, double high,
                        Need need)
 {
-    if (!wanted(name, need))
+    const std::optional<QJsonArray> array = takeArray(name, 0, most, need);
+    if (!array)
     {
-        return;
-    }
-    const QJsonArray array = at(name).toArray();
-    if (!at(name).isArray() || array.size() > most)
-    {
-        refuse(name, "not a list, or too long");
         return;
     }
     values.clear();
-    for (const QJsonValue& item : array)
+    for (const QJsonValue& item : *array)
     {
-        values.append(item.toDouble());
-        if (!item.isDouble() || values.last() < low || values.last() > high)
-        {
-            refuse(name, "not numbers in their range");
-        }
+        values.append(realOf(name, item, low, high));
     }
 }
 
@@ -129,6 +115,31 @@ void JsonReader::refuse(const char* name, const QString& rest)
     {
         mFault = QLatin1String(name) + rest;
     }
+}
+
+std::optional<QJsonArray> JsonReader::takeArray(const char* name, int least, int most, Need need)
+{
+    if (!wanted(name, need))
+    {
+        return std::nullopt;
+    }
+    const QJsonArray array = at(name).toArray();
+    if (!at(name).isArray() || array.size() < least || array.size() > most)
+    {
+        refuse(name, "not a list, or of the wrong length");
+        return std::nullopt;
+    }
+    return array;
+}
+
+double JsonReader::realOf(const char* name, const QJsonValue& item, double low, double high)
+{
+    const double number = item.toDouble();
+    if (!item.isDouble() || number < low || number > high)
+    {
+        refuse(name, "not numbers in their range");
+    }
+    return number;
 }
 
 std::optional<double> JsonReader::takeNumber(const char* name, double low, double high, bool whole, Need need)

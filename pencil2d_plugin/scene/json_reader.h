@@ -92,23 +92,12 @@ public:
     void reals(const char* name, std::array<double, Count>& values, double low, double high,
                Need need = Need::Required)
     {
-        if (!wanted(name, need))
+        const int count = static_cast<int>(Count);
+        if (const std::optional<QJsonArray> array = takeArray(name, count, count, need))
         {
-            return;
-        }
-        const QJsonArray array = at(name).toArray();
-        if (!at(name).isArray() || array.size() != static_cast<int>(Count))
-        {
-            refuse(name, "not a list of the right length");
-            return;
-        }
-        for (std::size_t i = 0; i < Count; ++i)
-        {
-            const QJsonValue item = array.at(static_cast<int>(i));
-            values.at(i) = item.toDouble();
-            if (!item.isDouble() || values.at(i) < low || values.at(i) > high)
+            for (int i = 0; i < count; ++i)
             {
-                refuse(name, "not numbers in their range");
+                values.at(static_cast<std::size_t>(i)) = realOf(name, array->at(i), low, high);
             }
         }
     }
@@ -136,20 +125,15 @@ public:
 
     template <class T> void list(const char* name, QVector<T>& values, int most, Need need = Need::Required)
     {
-        if (!wanted(name, need))
+        const std::optional<QJsonArray> array = takeArray(name, 0, most, need);
+        if (!array)
         {
             return;
         }
-        const QJsonArray array = at(name).toArray();
-        if (!at(name).isArray() || array.size() > most)
+        values.resize(array->size());
+        for (int i = 0; i < array->size(); ++i)
         {
-            refuse(name, "not a list, or too long");
-            return;
-        }
-        values.resize(array.size());
-        for (int i = 0; i < array.size(); ++i)
-        {
-            read(name, array.at(i), values[i]);
+            read(name, array->at(i), values[i]);
         }
     }
 
@@ -196,6 +180,9 @@ protected:
     void refuse(const char* name, const QString& rest);
 
 private:
+    /// The list in a field; none if the field is absent, or refused.
+    std::optional<QJsonArray> takeArray(const char* name, int least, int most, Need need);
+    double realOf(const char* name, const QJsonValue& item, double low, double high);
     std::optional<double> takeNumber(const char* name, double low, double high, bool whole, Need need);
 
     template <class T> void read(const char* name, const QJsonValue& item, T& value)
