@@ -1,13 +1,5 @@
 #include "tool/lamp_tool.h"
 
-#include "tool/canvas/canvas_input.h"
-#include "tool/canvas/canvas_overlay.h"
-#include "tool/canvas/key_input.h"
-#include "tool/canvas/lamp_menu.h"
-#include "tool/depth/brush_bar.h"
-#include "tool/depth/brush_editor.h"
-#include "tool/depth/cut_editor.h"
-#include "tool/depth/cut_menu.h"
 #include "tool/materials/materials_dock.h"
 #include "tool/panel/lamp_panel.h"
 #include "tool/panel/light_links.h"
@@ -32,14 +24,13 @@ constexpr int ProblemMs = 10000; ///< how long the status bar shows a problem
 
 LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject* parent)
     : QObject(parent), mHost(host), mWorker(worker), mDocument(document), mTool(new QAction(this)),
-      mSurfaces(new QAction(this)), mRender(new QAction(this)), mCancel(new QAction(this)),
-      mKeep(new QAction(this))
+      mActions(host), mCanvas(host, document, mColours)
 {
     initIcons();
-    addActions();
     addTool();
     addPanel();
     addDock();
+    setUpActions();
     setUpCanvas();
     connect(&worker, &Worker::problem, this, &LampTool::showProblem);
     connect(&document, &SceneDocument::problem, this, &LampTool::showProblem);
@@ -64,43 +55,16 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
 
 LampTool::~LampTool()
 {
-    delete mBrushBar;
-    delete mOverlay; // deletes the event filters of the canvas too
-    delete mMenu;
-    delete mCutMenu;
-    delete mProgress;
     delete mMaterials;
     delete mPanel;
 }
 
-void LampTool::addActions()
+void LampTool::setUpActions()
 {
-    const auto add = [this](QAction* action, const QString& name, const QString& text, const QString& hint)
-    {
-        action->setObjectName(name);
-        action->setText(text);
-        action->setToolTip(hint);
-        mHost.addLightAction(action);
-    };
-    add(mSurfaces, QStringLiteral("lampblack.surfaces"), tr("Generate Surfaces"),
-        tr("Model every frame now, so that scrubbing and playing are lit at once."));
-    add(mRender, QStringLiteral("lampblack.render"), tr("Render All Frames"),
-        tr("Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the "
-           "project"));
-    add(mCancel, QStringLiteral("lampblack.cancel"), tr("Cancel"),
-        tr("Stop generating or rendering. Frames that are done are kept."));
-    mCancel->setEnabled(false);
-    add(mKeep, QStringLiteral("lampblack.keep_light"), tr("Keep the Light While Drawing"),
-        tr("Once the lamp was used, its light stays on the canvas while you draw"));
-    mKeep->setCheckable(true);
-    mKeep->setChecked(true);
-    connect(mKeep, &QAction::toggled, this, &LampTool::updateOverlay);
-    connect(mSurfaces, &QAction::triggered, this, &LampTool::generateSurfacesRequested);
-    connect(mRender, &QAction::triggered, this, &LampTool::renderAllRequested);
-    connect(mCancel, &QAction::triggered, this, &LampTool::cancelRequested);
-    mProgress = new JobProgress(QStringLiteral("lampblack.status"), true);
-    connect(mProgress, &JobProgress::cancelRequested, this, &LampTool::cancelRequested);
-    mHost.addStatusWidget(mProgress);
+    connect(mActions.keep(), &QAction::toggled, this, &LampTool::updateOverlay);
+    connect(mActions.surfaces(), &QAction::triggered, this, &LampTool::generateSurfacesRequested);
+    connect(mActions.render(), &QAction::triggered, this, &LampTool::renderAllRequested);
+    connect(&mActions, &LightActions::cancelRequested, this, &LampTool::cancelRequested);
 }
 
 void LampTool::addTool()
@@ -120,7 +84,7 @@ void LampTool::addTool()
 
 void LampTool::addPanel()
 {
-    mPanel = new LampPanel(mHost, mDocument, *mSurfaces, *mRender);
+    mPanel = new LampPanel(mHost, mDocument, *mActions.surfaces(), *mActions.render());
     connect(mPanel, &LampPanel::viewModeChanged, this, &LampTool::setViewMode);
     connect(mPanel->render(), &RenderSection::renderChangedRequested, this,
             &LampTool::renderChangedRequested);
@@ -154,108 +118,27 @@ void LampTool::addDock()
                     mTool->trigger();
                 if (picking && showsDepth())
                     setViewMode(Show::Lit);
-                if (mInput)
-                    mInput->setPicking(picking && mActive);
+                mCanvas.setPicking(picking && mActive);
                 if (picking && mMaterials)
-                    mMaterials->setPicking(mInput && mInput->isPicking());
+                    mMaterials->setPicking(mCanvas.isPicking());
             });
     mHost.addDock(mMaterials);
 }
 
 void LampTool::setUpCanvas()
 {
-    if (mHost.canvas() == nullptr)
-        return;
-    mOverlay = new CanvasOverlay(mHost, mDocument);
-    mInput = new CanvasInput(mHost, mDocument, *mOverlay);
-    mCuts = new CutEditor(mHost, mDocument, *mOverlay);
-    mBrush = new BrushEditor(mHost, mDocument, *mOverlay);
-    mKeys = new KeyInput(mHost, mDocument, *mOverlay, *mInput, mCuts, mBrush);
-    mMenu = new LampMenu(mHost, mDocument, mHost.canvas());
-    connect(&mHost, &Host::playingChanged, mOverlay.data(),
-            [this](bool playing) { mOverlay->setPlaying(playing); });
-    connect(mInput, &CanvasInput::menuRequested, mMenu.data(),
-            [this](const QPointF& canvas, const QPoint& global, const Handle& handle)
-            { mMenu->openAt(canvas, global, handle, mColours.at(canvas)); });
-    connect(mInput, &CanvasInput::pointerMoved, this, &LampTool::highlightColourAt);
-    connect(mInput, &CanvasInput::pointerLeft, this,
-            [this]
-            {
-                if (mMaterials)
-                    mMaterials->setHighlighted(QString());
-            });
-    connect(mInput, &CanvasInput::colourPicked, this,
-            [this](const QPointF& canvas)
-            {
-                if (mMaterials)
-                    mMaterials->revealColour(mColours.at(canvas));
-            });
-    connect(mInput, &CanvasInput::pickingChanged, this,
-            [this](bool picking)
-            {
-                if (mMaterials)
-                    mMaterials->setPicking(picking);
-            });
-    connect(mMenu, &LampMenu::editMaterialRequested, this,
-            [this](const QString& colour)
-            {
-                if (mMaterials)
-                    mMaterials->revealColour(colour);
-            });
-    setUpCuts();
-}
-
-void LampTool::setUpCuts()
-{
-    mCutMenu = new CutMenu(mHost, mDocument, *mCuts, mHost.canvas());
-    connect(mCuts, &CutEditor::menuRequested, mCutMenu.data(),
-            [this](const Cut* cut, const QPoint& global)
-            { mCutMenu->openAt(cut, global, colourAt(global)); });
-    connect(mBrush, &BrushEditor::menuRequested, mCutMenu.data(),
-            [this](int stroke, const QPoint& global)
-            { mCutMenu->openAtStroke(stroke, global, colourAt(global)); });
-    mBrushBar = new BrushBar(mHost.canvas());
-    connect(mBrushBar, &BrushBar::brushChosen, this,
-            [this](std::optional<Brush> brush)
-            {
-                if (brush)
-                    mBrush->setBrush(*brush);
-                updateInput();
-            });
-    connect(mCutMenu, &CutMenu::lightRequested, this, [this] { setViewMode(Show::Lit); });
-    connect(mMenu, &LampMenu::depthRequested, this, [this] { setViewMode(Show::Relief); });
-}
-
-QString LampTool::colourAt(const QPoint& global) const
-{
-    const std::optional<QTransform> toWidget = mHost.canvasToWidget();
-    if (!toWidget || !toWidget->isInvertible())
-        return {};
-    return mColours.at(toWidget->inverted().map(QPointF(mHost.canvas()->mapFromGlobal(global))));
+    MaterialsDock* materials = mMaterials;
+    connect(&mCanvas, &CanvasTools::colourHovered, materials, &MaterialsDock::setHighlighted);
+    connect(&mCanvas, &CanvasTools::colourPicked, materials, &MaterialsDock::revealColour);
+    connect(&mCanvas, &CanvasTools::materialRequested, materials, &MaterialsDock::revealColour);
+    connect(&mCanvas, &CanvasTools::pickingChanged, materials, &MaterialsDock::setPicking);
+    connect(&mCanvas, &CanvasTools::viewRequested, this, [this](Show view) { setViewMode(view); });
 }
 
 void LampTool::updateInput()
 {
     mHost.showStatus(mActive ? mTool->statusTip() : QString());
-    if (!mOverlay)
-        return;
-    const bool depth = mActive && showsDepth();
-    // Who had the cursor gives it back first.
-    if (depth)
-        mInput->setListening(false);
-    const bool brush = depth && mBrushBar && mBrushBar->brush();
-    if (brush)
-        mCuts->setListening(false);
-    else
-        mBrush->setListening(false);
-    mCuts->setListening(depth && !brush);
-    mBrush->setListening(brush);
-    if (mBrushBar)
-    {
-        mBrushBar->setVisible(depth);
-        mBrushBar->raise();
-    }
-    mInput->setListening(mActive && !depth);
+    mCanvas.setListening(mActive, showsDepth());
 }
 
 void LampTool::setActive(bool active)
@@ -264,8 +147,6 @@ void LampTool::setActive(bool active)
         return;
     mActive = active;
     mWasActive = true;
-    if (mOverlay)
-        mKeys->setListening(active);
     updateOverlay();
     updateInput();
     updateProgress();
@@ -274,17 +155,17 @@ void LampTool::setActive(bool active)
 
 bool LampTool::isDrawing() const
 {
-    return !mActive && mWasActive && mKeep->isChecked() && viewMode() == Show::Lit;
+    return !mActive && mWasActive && mActions.keep()->isChecked() && viewMode() == Show::Lit;
 }
 
 void LampTool::updateOverlay()
 {
-    if (mOverlay)
+    if (CanvasOverlay* overlay = mCanvas.overlay())
     {
-        mOverlay->setDrawing(isDrawing());
-        mOverlay->setVisible(isLighting());
-        mOverlay->raise();
-        mOverlay->updateHandles();
+        overlay->setDrawing(isDrawing());
+        overlay->setVisible(isLighting());
+        overlay->raise();
+        overlay->updateHandles();
     }
     if (std::exchange(mLighting, isLighting()) != isLighting())
         Q_EMIT lightingChanged(mLighting);
@@ -299,8 +180,7 @@ void LampTool::setViewMode(std::optional<Show> mode)
 {
     if (mPanel)
         mPanel->setViewMode(mode);
-    if (mOverlay)
-        mOverlay->clearPicture();
+    clearPicture();
     updateInput();
     Q_EMIT viewModeChanged();
 }
@@ -323,8 +203,7 @@ ApartKind LampTool::apart() const
 void LampTool::setFrame(const FrameExport& frame)
 {
     mColours.setFrame(frame);
-    if (mCuts)
-        mCuts->setFrame(frame);
+    mCanvas.setFrame(frame);
     if (frame.canvasToImage.isIdentity())
         mCameras.remove(frame.frame);
     else
@@ -333,27 +212,28 @@ void LampTool::setFrame(const FrameExport& frame)
 
 void LampTool::setPicture(const PreviewImage& picture)
 {
-    if (!mOverlay || (!picture.picture.isNull() && picture.show != viewMode()))
+    CanvasOverlay* overlay = mCanvas.overlay();
+    if (overlay == nullptr || (!picture.picture.isNull() && picture.show != viewMode()))
         return;
-    mOverlay->setPicture(picture, mCameras.value(picture.frame));
+    overlay->setPicture(picture, mCameras.value(picture.frame));
 }
 
 void LampTool::setStandIn(const PreviewImage& picture, const QTransform& canvasToImage)
 {
-    if (mOverlay)
-        mOverlay->setStandIn(picture, canvasToImage);
+    if (CanvasOverlay* overlay = mCanvas.overlay())
+        overlay->setStandIn(picture, canvasToImage);
 }
 
 void LampTool::setDrawn(const FrameExport& drawn)
 {
-    if (mOverlay)
-        mOverlay->setDrawn(drawn);
+    if (CanvasOverlay* overlay = mCanvas.overlay())
+        overlay->setDrawn(drawn);
 }
 
 void LampTool::clearPicture()
 {
-    if (mOverlay)
-        mOverlay->clearPicture();
+    if (CanvasOverlay* overlay = mCanvas.overlay())
+        overlay->clearPicture();
 }
 
 void LampTool::setLit(bool lit)
@@ -364,19 +244,13 @@ void LampTool::setLit(bool lit)
 
 void LampTool::setUnlitLayers(const FrameExport& below, const FrameExport& above)
 {
-    if (mOverlay)
-        mOverlay->setUnlitLayers(below, above);
+    if (CanvasOverlay* overlay = mCanvas.overlay())
+        overlay->setUnlitLayers(below, above);
 }
 
 void LampTool::setOverlaps(int frame, const QVector<Overlap>& overlaps)
 {
-    if (mCuts)
-        mCuts->setOverlaps(frame, overlaps);
-}
-
-QVector<Cut> LampTool::cuts() const
-{
-    return mCuts && mCuts->isListening() ? mCuts->cuts() : QVector<Cut>();
+    mCanvas.setOverlaps(frame, overlaps);
 }
 
 void LampTool::setPalette(const QVector<Swatch>& swatches)
@@ -393,13 +267,9 @@ void LampTool::setPalette(const QVector<Swatch>& swatches)
 
 void LampTool::setProgress(const QString& doing, int done, int total)
 {
-    for (QAction* action : {mSurfaces, mRender})
-        action->setEnabled(total == 0);
-    mCancel->setEnabled(total > 0);
     if (mPanel)
         mPanel->progress()->setProgress(doing, done, total);
-    if (mProgress)
-        mProgress->setProgress(doing, done, total);
+    mActions.setProgress(doing, done, total);
     updateProgress();
 }
 
@@ -411,9 +281,7 @@ void LampTool::setOutdated(int outdated, int total)
 
 void LampTool::updateProgress()
 {
-    // Cancel must be in sight, but not twice.
-    if (mProgress)
-        mProgress->setVisible(mProgress->isRunning() && !(mPanel && mPanel->isVisible()));
+    mActions.setSeenElsewhere(mPanel && mPanel->isVisible());
 }
 
 void LampTool::showProblem(const UserError& error)
@@ -431,12 +299,6 @@ void LampTool::settleProblem(UserError::Kind kind)
 {
     if (mPanel)
         mPanel->settleProblem(kind);
-}
-
-void LampTool::highlightColourAt(const QPointF& canvas)
-{
-    if (mMaterials)
-        mMaterials->setHighlighted(mColours.at(canvas));
 }
 
 } // namespace lampblack

@@ -3,8 +3,8 @@
 
 #include "host/host.h"
 #include "scene/scene_document.h"
-#include "tool/canvas/frame_colours.h"
-#include "tool/depth/cuts.h"
+#include "tool/canvas_tools.h"
+#include "tool/light_actions.h"
 #include "tool/shot_range.h"
 #include "worker/worker.h"
 
@@ -14,15 +14,6 @@
 namespace lampblack
 {
 
-class BrushBar;
-class BrushEditor;
-class CanvasInput;
-class CanvasOverlay;
-class CutEditor;
-class CutMenu;
-class JobProgress;
-class KeyInput;
-class LampMenu;
 class LampPanel;
 class MaterialsDock;
 
@@ -46,11 +37,11 @@ public:
     void setViewMode(std::optional<Show> mode);
     /// The Depth view: the canvas shows how near the surface is, and its cuts, which can be corrected.
     bool showsDepth() const { return viewMode() == Show::Relief; }
-    QVector<Cut> cuts() const; ///< those that are shown
+    QVector<Cut> cuts() const { return mCanvas.cuts(); } ///< those that are shown
 
     QAction* toolAction() { return mTool; }
-    QAction* renderAction() { return mRender; } ///< "Render All Frames"
-    QAction* keepAction() { return mKeep; }     ///< "Keep the Light While Drawing"
+    QAction* renderAction() { return mActions.render(); } ///< "Render All Frames"
+    QAction* keepAction() { return mActions.keep(); }     ///< "Keep the Light While Drawing"
     ShotRange shotRange() const;
     bool hidesSources() const; ///< whether the lit layers are hidden once the result layer is there
     ApartKind apart() const;   ///< what rendered frames are taken apart into
@@ -101,16 +92,13 @@ private:
     void setActive(bool active);
     void updateOverlay();
     void addTool();
-    void addActions();
-    void updateProgress();
     void addPanel();
     void addDock();
+    void setUpActions();
     void setUpCanvas();
-    void setUpCuts();
-    QString colourAt(const QPoint& global) const;
-    void settleProblem(UserError::Kind kind);
     void updateInput();
-    void highlightColourAt(const QPointF& canvas);
+    void updateProgress();
+    void settleProblem(UserError::Kind kind);
 
     Host& mHost;
     Worker& mWorker;
@@ -121,22 +109,11 @@ private:
     FrameColours mColours;
     QHash<int, QTransform> mCameras; ///< canvas to image, by frame, if not identity
     QAction* mTool;
-    QAction* mSurfaces;
-    QAction* mRender;
-    QAction* mCancel;
-    QAction* mKeep; ///< "Keep the Light While Drawing"
+    LightActions mActions;
+    CanvasTools mCanvas;
     // These belong to the host's window and may be deleted with it.
     QPointer<LampPanel> mPanel;
-    QPointer<JobProgress> mProgress; ///< in the status bar, while the panel is not in sight
     QPointer<MaterialsDock> mMaterials;
-    QPointer<CanvasOverlay> mOverlay;
-    QPointer<CanvasInput> mInput;
-    QPointer<KeyInput> mKeys;
-    QPointer<LampMenu> mMenu;
-    QPointer<CutEditor> mCuts;
-    QPointer<CutMenu> mCutMenu;
-    QPointer<BrushEditor> mBrush;
-    QPointer<BrushBar> mBrushBar;
 };
 
 } // namespace lampblack

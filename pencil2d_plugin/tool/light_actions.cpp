@@ -1,0 +1,64 @@
+#include "tool/light_actions.h"
+
+#include "tool/panel/job_progress.h"
+
+namespace lampblack
+{
+
+LightActions::LightActions(Host& host, QObject* parent)
+    : QObject(parent), mSurfaces(new QAction(this)), mRender(new QAction(this)), mCancel(new QAction(this)),
+      mKeep(new QAction(this)), mStatus(new JobProgress(QStringLiteral("lampblack.status"), true))
+{
+    const auto add = [&host](QAction* action, const QString& name, const QString& text, const QString& hint)
+    {
+        action->setObjectName(name);
+        action->setText(text);
+        action->setToolTip(hint);
+        host.addLightAction(action);
+    };
+    add(mSurfaces, QStringLiteral("lampblack.surfaces"), tr("Generate Surfaces"),
+        tr("Model every frame now, so that scrubbing and playing are lit at once."));
+    add(mRender, QStringLiteral("lampblack.render"), tr("Render All Frames"),
+        tr("Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the "
+           "project"));
+    add(mCancel, QStringLiteral("lampblack.cancel"), tr("Cancel"),
+        tr("Stop generating or rendering. Frames that are done are kept."));
+    mCancel->setEnabled(false);
+    add(mKeep, QStringLiteral("lampblack.keep_light"), tr("Keep the Light While Drawing"),
+        tr("Once the lamp was used, its light stays on the canvas while you draw"));
+    mKeep->setCheckable(true);
+    mKeep->setChecked(true);
+    connect(mCancel, &QAction::triggered, this, &LightActions::cancelRequested);
+    connect(mStatus, &JobProgress::cancelRequested, this, &LightActions::cancelRequested);
+    host.addStatusWidget(mStatus);
+}
+
+LightActions::~LightActions()
+{
+    delete mStatus;
+}
+
+void LightActions::setProgress(const QString& doing, int done, int total)
+{
+    for (QAction* action : {mSurfaces, mRender})
+        action->setEnabled(total == 0);
+    mCancel->setEnabled(total > 0);
+    if (mStatus)
+        mStatus->setProgress(doing, done, total);
+    updateStatus();
+}
+
+void LightActions::setSeenElsewhere(bool seen)
+{
+    mSeenElsewhere = seen;
+    updateStatus();
+}
+
+void LightActions::updateStatus()
+{
+    // Cancel must be in sight, but not twice.
+    if (mStatus)
+        mStatus->setVisible(mStatus->isRunning() && !mSeenElsewhere);
+}
+
+} // namespace lampblack
