@@ -123,6 +123,7 @@ void LookSection::addMore()
     rows.addWidget(lookRow("shade", tr("Shade"),
                            tr("How far the shade takes its colour: 0 leaves it to the light"),
                            &Look::shadeStrength));
+    addCastShadow(rows);
     rows.addWidget(lookRow("highlight", tr("Highlight"),
                            tr("With tones: how bright gloss must be to show. Lower makes larger highlights"),
                            &Look::highlight));
@@ -135,6 +136,32 @@ void LookSection::addMore()
         lookRow("glow", tr("Glow"), tr("Bloom around colours that shine by themselves"), &Look::glow));
     addRim(rows);
     body()->addWidget(more);
+}
+
+void LookSection::addCastShadow(QVBoxLayout& rows)
+{
+    auto* colour = new ColourButton(named("cast_colour"), tr("Colour of cast shadows"), this);
+    QWidget* head = colourRow(colour, tr("Cast shadow"));
+    ValueRow* strength =
+        lookRow("cast", tr("Strength"),
+                tr("With tones: how far the shadow of an arm on the body takes its own colour, so that it is "
+                   "deeper than the side in shade. 0 leaves it as the shade"),
+                &Look::castStrength);
+    head->setToolTip(strength->toolTip());
+    rows.addWidget(head);
+    rows.addWidget(strength);
+    connect(colour, &ColourButton::edited, this,
+            [this](const QColor& chosen, int gesture) {
+                change(tr("Change Cast Shadow"), gesture,
+                       [&](Scene& scene) { scene.look.castColour = chosen; });
+            });
+    mShow << [colour, strength](const Scene& scene)
+    {
+        const bool hasTones = !scene.look.tones.isEmpty();
+        colour->setEnabled(hasTones);
+        strength->setEnabled(hasTones);
+        colour->setColour(scene.look.castColour);
+    };
 }
 
 void LookSection::addRim(QVBoxLayout& rows)

@@ -26,6 +26,7 @@ private:
     QWidget* choices();
     QWidget* toneCount();
     void addMore();
+    void addCastShadow(QVBoxLayout& rows);
     void addRim(QVBoxLayout& rows);
     /// A row bound to a value of the look.
     ValueRow* lookRow(const char* name, const QString& label, const QString& hint, double Look::*field);

@@ -1,6 +1,8 @@
 // The look in the panel.
 #include "support/panel_test.h"
 
+#include "tool/panel/colour_button.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -44,6 +46,25 @@ private Q_SLOTS:
         QCOMPARE(mDocument->scene().look.tones[1], 0.9);
         Q_EMIT count->activated(0);
         QVERIFY(mDocument->scene().look.tones.isEmpty());
+    }
+
+    void castShadowsHaveATone()
+    {
+        auto* colour = find<ColourButton>("look.cast_colour");
+        auto* strength = find<QDoubleSpinBox>("look.cast.field");
+        QVERIFY2(!colour->isEnabled() && !strength->isEnabled(), "smooth light has no cast tone");
+        QTest::mouseClick(find<QToolButton>("look.hard-cel"), Qt::LeftButton);
+        const Scene before = mDocument->scene();
+        QVERIFY(colour->isEnabled());
+        strength->setValue(0.7);
+        Q_EMIT colour->edited(QColor(0x10, 0x20, 0x40), 0);
+        QCOMPARE(mDocument->scene().look.castStrength, 0.7);
+        QCOMPARE(mDocument->scene().look.castColour, QColor(0x10, 0x20, 0x40));
+        QCOMPARE(colour->colour(), QColor(0x10, 0x20, 0x40));
+        mDocument->undoStack()->undo();
+        mDocument->undoStack()->undo();
+        QVERIFY(mDocument->scene() == before);
+        QCOMPARE(strength->value(), before.look.castStrength);
     }
 
     void shadeInkAndRimHaveTheirNumbers()
