@@ -2,7 +2,7 @@
 
 #include "tool/canvas/instant_tones.h"
 
-#include <QSet>
+#include <QHash>
 #include <QVector3D>
 
 #include <algorithm>
@@ -202,15 +202,34 @@ private:
     QVector<Place> mColumns;
 };
 
-QSet<QRgb> unlitColours(const Scene& scene)
+enum class Paint
 {
-    QSet<QRgb> unlit;
+    AsDrawn,
+    Smooth,
+    Toned
+};
+
+Paint paintOf(const Material& material, const Look& look)
+{
+    if ((!material.diffuse && !material.glossy) || material.emission > 0)
+        return Paint::AsDrawn;
+    if (material.look == LookChoice::Scene)
+        return look.tones.isEmpty() ? Paint::Smooth : Paint::Toned;
+    return material.look == LookChoice::Cel ? Paint::Toned : Paint::Smooth;
+}
+
+/// The colours that are not shown as all others are.
+QHash<QRgb, Paint> ownPaints(const Scene& scene)
+{
+    QHash<QRgb, Paint> own;
+    const Paint usual = paintOf(scene.defaultMaterial, scene.look);
     for (auto material = scene.materials.begin(); material != scene.materials.end(); ++material)
     {
-        if ((!material.value().diffuse && !material.value().glossy) || material.value().emission > 0)
-            unlit.insert(QColor(material.key()).rgb());
+        const Paint paint = paintOf(material.value(), scene.look);
+        if (paint != usual)
+            own.insert(QColor(material.key()).rgb(), paint);
     }
-    return unlit;
+    return own;
 }
 
 } // namespace
@@ -271,7 +290,8 @@ QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const Ins
     const QSize size(std::max(1, int(source.width() / step)), std::max(1, int(source.height() / step)));
     QImage picture(size, QImage::Format_RGBA8888_Premultiplied);
     picture.fill(Qt::transparent);
-    const QSet<QRgb> unlit = unlitColours(scene);
+    const Paint usual = paintOf(scene.defaultMaterial, scene.look);
+    const QHash<QRgb, Paint> own = ownPaints(scene);
     const InstantTones tones(scene);
     Row row(shape, light, size.width(), step);
     for (int y = 0; y < size.height(); ++y)
@@ -287,10 +307,10 @@ QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const Ins
                 continue;
             Values lamp = row.at(x);
             const float enclosed = lamp[3];
-            if (!light.amount.isEmpty())
+            const Paint paint = own.isEmpty() ? usual : own.value(qRgb(pixel[0], pixel[1], pixel[2]), usual);
+            if (paint == Paint::Toned && !light.amount.isEmpty())
                 std::copy_n(tones.at(lamp[4]).begin(), 3, lamp.begin());
-            const bool isLit = unlit.isEmpty() || !unlit.contains(qRgb(pixel[0], pixel[1], pixel[2]));
-            const float part = !isLit ? 0 : (shape.onGround ? enclosed : 1);
+            const float part = paint == Paint::AsDrawn ? 0 : (shape.onGround ? enclosed : 1);
             for (size_t i = 0; i < 3; ++i)
                 lamp[i] = 1 + part * (lamp[i] - 1);
             // Bare paper that lines enclose is lit as if it were white, and the white is taken away again.

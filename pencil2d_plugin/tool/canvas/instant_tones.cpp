@@ -23,17 +23,35 @@ double largest(const std::array<double, 3>& colour)
     return std::max({colour[0], colour[1], colour[2]});
 }
 
+/// The scene's look; of one without tones, in which some colour is in tones, what that colour has.
+Look lookOfTones(const Scene& scene)
+{
+    Look look = scene.look;
+    const bool hasCel =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& material) { return material.look == LookChoice::Cel; });
+    if (look.tones.isEmpty() && (hasCel || scene.defaultMaterial.look == LookChoice::Cel))
+    {
+        look = Look();
+        look.tones = {0.42};
+        look.shadeStrength = 0.5;
+        look.shadeColour = scene.look.shadeColour;
+    }
+    return look;
+}
+
 } // namespace
 
 InstantTones::InstantTones(const Scene& scene)
     : mMiddle(float(scene.canvas.width) / 2, float(scene.canvas.height) / 2, 0)
 {
-    QVector<double> tones = scene.look.tones;
+    const Look look = lookOfTones(scene);
+    QVector<double> tones = look.tones;
     std::sort(tones.begin(), tones.end());
     for (const double tone : qAsConst(tones))
     {
-        const double begin = std::max(0.0, tone - scene.look.softness / 2);
-        const double end = tone + scene.look.softness / 2;
+        const double begin = std::max(0.0, tone - look.softness / 2);
+        const double end = tone + look.softness / 2;
         mSteps.append({float(begin * begin), float(std::max(end * end, begin * begin + 1e-3))});
     }
     const bool alone = std::any_of(scene.lights.begin(), scene.lights.end(),
@@ -62,12 +80,12 @@ InstantTones::InstantTones(const Scene& scene)
         channel *= scene.ambient.strength;
     const double sum = largest(ambient) + full;
     const double exposure = sum <= 1 ? 1 : (1 + 0.35 * std::log(sum)) / sum;
-    const std::array<double, 3> tint = linear(scene.look.shadeColour);
+    const std::array<double, 3> tint = linear(look.shadeColour);
     for (int level = 0; level <= Levels; ++level)
     {
         for (size_t i = 0; i < hue.size(); ++i)
         {
-            const double shade = ambient[i] + scene.look.shadeStrength * (tint[i] * sum - ambient[i]);
+            const double shade = ambient[i] + look.shadeStrength * (tint[i] * sum - ambient[i]);
             const double lit = ambient[i] + (brightest > 0 ? full * hue[i] / brightest : 0);
             const double light = exposure * (shade + (lit - shade) * level / Levels);
             mTable[size_t(level)][i] = float(std::pow(std::max(0.0, light), 1 / Gamma));

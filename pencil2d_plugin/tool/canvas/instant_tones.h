@@ -14,7 +14,7 @@ namespace lampblack
 class InstantTones
 {
 public:
-    /// Without tones in the scene's look it is empty.
+    /// It is empty if neither the scene's look nor that of a colour has tones.
     explicit InstantTones(const Scene& scene);
 
     bool isEmpty() const { return mSteps.isEmpty(); }

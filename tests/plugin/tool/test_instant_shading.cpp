@@ -211,6 +211,24 @@ private Q_SLOTS:
         QCOMPARE(picture.pixel(280, 150), picture.pixel(290, 150));
     }
 
+    void coloursHaveALookOfTheirOwn()
+    {
+        Scene scene = sceneWithLight(20, 150, 200);
+        scene.lights[0].power = 0.7;
+        Material material;
+        material.look = LookChoice::Cel;
+        scene.materials.insert(QStringLiteral("#808080"), material);
+        const QImage toned = shaded(disc(), scene);
+        QCOMPARE(toned.pixel(280, 150), toned.pixel(290, 150));
+        QVERIFY(qRed(toned.pixel(110, 150)) > qRed(toned.pixel(290, 150)) + 20);
+        scene.look.tones = {0.45};
+        scene.materials[QStringLiteral("#808080")].look = LookChoice::Smooth;
+        const QImage smooth = shaded(disc(), scene);
+        scene.look.tones.clear();
+        scene.materials.clear();
+        QCOMPARE(smooth, shaded(disc(), scene));
+    }
+
     void paperAroundTheFigureIsBare()
     {
         const QImage picture = shaded(disc(), dark(20, 150, 200));
