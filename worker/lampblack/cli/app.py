@@ -12,6 +12,7 @@ from .lazy import Commands, group_of
 
 COMMANDS: Commands = {
     "render": ("lampblack.cli.render:render", "Light drawings, or the frames of a project."),
+    "estimate": ("lampblack.cli.estimate:estimate", "Estimate time and disk space of a render."),
     "job": ("lampblack.cli.job:job", "Write an OpenJD job template that lights a shot."),
     "serve": ("lampblack.cli.serve:serve", "Serve a drawing program with previews and renders."),
     "normals": ("lampblack.cli.surface:normals", "Predict the normal maps of drawings."),
