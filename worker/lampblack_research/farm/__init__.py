@@ -1,0 +1,1 @@
+"""How a shot is best shared among many machines."""
