@@ -1,7 +1,7 @@
 # make demo: light the example. make pencil2d [PROJECT=file.pclx]: open Pencil2D with the lamp tool.
 # make test: check everything. Each installs first what it needs, in the versions of requirements/.
 # make lock: renew those. make test-newest: check everything with the newest versions instead.
-.PHONY: demo pencil2d install uninstall environment lock plugin schema format tidy clean \
+.PHONY: dist demo pencil2d install uninstall environment lock plugin schema format tidy clean \
     check check-python check-types check-cpp build-dev build-asan \
     test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos \
     test-window test-trixie test-sid
@@ -109,6 +109,11 @@ lock:
 
 environment:
 	@scripts/environment.sh
+
+# The last commit, as wheel, sdist and .deb, in dist/.
+dist:
+	@scripts/environment.sh plugin
+	scripts/dist.sh
 
 plugin:
 	@scripts/environment.sh plugin

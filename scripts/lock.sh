@@ -24,5 +24,13 @@ for lock in requirements/python3.*.txt; do
         /^[a-z]/ { apart = /^(torch|triton|nvidia-.*|cuda-.*)==/; if (apart) print $1 > torch }
         ! apart' "$tools/all" >"$tools/rest"
     cp "$tools/rest" "$lock"
+    # What the panel's installer installs: the worker alone, in the same versions. The sizes are measured.
+    worker=packaging/worker-python$version.txt
+    sed -n 's/^\([a-z0-9][a-z0-9._-]*==[^ ;\\]*\).*/\1/p' "$lock" >"$tools/versions"
+    "$tools/bin/uv" --no-config pip compile --quiet pyproject.toml --constraint "$tools/versions" \
+        --python-version "$version" --python-platform x86_64-unknown-linux-gnu \
+        --generate-hashes --no-header --no-annotate --output-file "$tools/worker"
+    { grep '^# bytes' "$worker" || true; cat "$tools/worker"; } >"$tools/sized"
+    cp "$tools/sized" "$worker"
     cp "$tools/torch" "${lock%.txt}-torch.txt"
 done

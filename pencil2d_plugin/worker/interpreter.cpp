@@ -1,5 +1,7 @@
 #include "worker/interpreter.h"
 
+#include "worker/installer.h"
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
@@ -38,16 +40,39 @@ Interpreter findInterpreter(const QString& folder)
     QFile note(QDir(folder).filePath(QStringLiteral("lampblack.json")));
     if (note.open(QIODevice::ReadOnly))
     {
-        const QString path =
-            QJsonDocument::fromJson(note.read(MaxBytes)).object().value(QLatin1String("python")).toString();
-        return {QDir::isAbsolutePath(path) ? path : QString(), note.fileName()};
+        const QJsonObject said = QJsonDocument::fromJson(note.read(MaxBytes)).object();
+        const QString installer = said.value(QLatin1String("installer")).toString();
+        const QString path = installer.isEmpty()
+                                 ? said.value(QLatin1String("python")).toString()
+                                 : QDir(dataFolder()).filePath(QStringLiteral("worker/bin/python"));
+        return {QDir::isAbsolutePath(path) ? path : QString(), note.fileName(), installer};
     }
     const QString path = QDir(folder).filePath(QStringLiteral("../../../.venv/bin/python"));
     return {QDir::cleanPath(path), QStringLiteral("the source tree")};
 }
 
+bool isToInstall(const Interpreter& interpreter)
+{
+    return !interpreter.installer.isEmpty() &&
+           (installedVersion(interpreter) != QLatin1String(LAMPBLACK_VERSION) ||
+            !QFileInfo(interpreter.path).isExecutable());
+}
+
+QString installedVersion(const Interpreter& interpreter)
+{
+    QFile marker(QFileInfo(interpreter.path).absoluteDir().filePath(QStringLiteral("../complete.json")));
+    if (!marker.open(QIODevice::ReadOnly))
+        return {};
+    return QJsonDocument::fromJson(marker.read(MaxBytes)).object().value(QLatin1String("version")).toString();
+}
+
 UserError notInstalled(const Interpreter& interpreter, const QString& details)
 {
+    if (!interpreter.installer.isEmpty())
+    {
+        return {QCoreApplication::translate("lampblack", "The lamp's renderer is not installed."),
+                QCoreApplication::translate("lampblack", "Press Install in the lamp's panel."), details};
+    }
     return {QCoreApplication::translate("lampblack", "Lampblack's worker is not installed."),
             QCoreApplication::translate(
                 "lampblack", "Open a terminal in Lampblack's folder and type: make install. Then try again."),
@@ -56,8 +81,14 @@ UserError notInstalled(const Interpreter& interpreter, const QString& details)
                      interpreter.source, details)};
 }
 
-UserError versionMismatch(const QString& details)
+UserError versionMismatch(const Interpreter& interpreter, const QString& details)
 {
+    if (!interpreter.installer.isEmpty())
+    {
+        return {QCoreApplication::translate("lampblack",
+                                            "The lamp's renderer is of another version than the lamp."),
+                QCoreApplication::translate("lampblack", "Press Update in the lamp's panel."), details};
+    }
     return {
         QCoreApplication::translate("lampblack", "Lampblack's worker is of another version than its plugin."),
         QCoreApplication::translate(

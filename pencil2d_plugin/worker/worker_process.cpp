@@ -122,6 +122,14 @@ void WorkerProcess::launch()
         giveUp(notInstalled(mInterpreter, QStringLiteral("There is no such program.")));
         return;
     }
+    if (isToInstall(mInterpreter))
+    {
+        const QString version = installedVersion(mInterpreter);
+        const QString has = QStringLiteral("Installed: \"%1\". Wanted: \"%2\".")
+                                .arg(version, QStringLiteral(LAMPBLACK_VERSION));
+        giveUp(version.isEmpty() ? notInstalled(mInterpreter, has) : versionMismatch(mInterpreter, has));
+        return;
+    }
     mFolder = std::make_unique<QTemporaryDir>(ownFolderTemplate());
     if (!mFolder->isValid())
     {
@@ -181,6 +189,7 @@ void WorkerProcess::checkForConnection()
     else if (connection->lampblack != protocol::Major)
     {
         giveUp(versionMismatch(
+            mInterpreter,
             QStringLiteral("The worker speaks version %1, the plugin version %2 of the protocol.")
                 .arg(connection->lampblack)
                 .arg(protocol::Major)));

@@ -29,6 +29,7 @@ public:
     ~WorkerProcess() override;
 
     bool isRunning() const { return mRunning; }
+    const Interpreter& interpreter() const { return mInterpreter; }
     void start();
     void stop();
     /// End a process that is of no more use, and start another. `reason` is for the details of an error.

@@ -152,7 +152,7 @@ void WorkerSession::handle(const protocol::Error& error)
     const QString details = QStringLiteral("%1: %2").arg(error.code, error.details);
     if (error.code == QLatin1String("version_mismatch"))
     {
-        mProcess.giveUp(versionMismatch(details));
+        mProcess.giveUp(versionMismatch(mProcess.interpreter(), details));
         return;
     }
     if (error.code == QLatin1String("not_greeted"))

@@ -5,6 +5,8 @@
 #include "tool/panel/lights_section.h"
 #include "tool/panel/look_section.h"
 
+#include "worker/interpreter.h"
+
 #include <QHBoxLayout>
 #include <QScrollBar>
 #include <QShowEvent>
@@ -36,6 +38,7 @@ std::optional<Show> modeOf(int button)
 
 LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAction& render)
     : mViews(new QButtonGroup(this)), mDepthHelp(new QLabel), mProblem(new ProblemCard),
+      mInstall(new InstallCard(findInterpreter().installer)),
       mRender(new RenderSection(document, surfaces, render)), mWorkerLine(new WorkerLine),
       mProgress(new JobProgress(QStringLiteral("lampblack.panel"), false)), mHeader(new QWidget(this))
 {
@@ -53,6 +56,7 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAc
     column->setContentsMargins(3, 3, 3, 3);
     column->setSpacing(3);
     column->addWidget(mProblem);
+    column->addWidget(mInstall);
     mDepthHelp->setObjectName(QStringLiteral("lampblack.panel.depth_help"));
     mDepthHelp->setText(tr("Lighter is nearer. The side of a line with teeth is in front.\n"
                            "Click a line: the other side comes in front. Right-click: more.\n"
@@ -80,6 +84,7 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAc
     addHeader(small);
     restoreSections(host);
     connect(mProblem, &ProblemCard::retryRequested, this, &LampPanel::retryRequested);
+    connect(mInstall, &InstallCard::installed, this, &LampPanel::retryRequested);
 }
 
 void LampPanel::addHeader(const QFont& font)
@@ -178,7 +183,10 @@ void LampPanel::setWorkerState(Worker::State state)
 
 void LampPanel::showProblem(const UserError& error)
 {
-    mProblem->showError(error);
+    if (error.kind == UserError::Kind::NoWorker && isToInstall(findInterpreter()))
+        mInstall->ask();
+    else
+        mProblem->showError(error);
     verticalScrollBar()->setValue(0);
 }
 

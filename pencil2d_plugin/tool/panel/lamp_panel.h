@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/panel/borrowed_height.h"
+#include "tool/panel/install_card.h"
 #include "tool/panel/job_progress.h"
 #include "tool/panel/problem_card.h"
 #include "tool/panel/render_section.h"
@@ -56,6 +57,7 @@ private:
     QButtonGroup* mViews;
     QLabel* mDepthHelp;
     ProblemCard* mProblem;
+    InstallCard* mInstall;
     RenderSection* mRender;
     WorkerLine* mWorkerLine;
     JobProgress* mProgress;
