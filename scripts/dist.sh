@@ -16,11 +16,13 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$dist" "$work/source"
 git archive HEAD | tar -x -C "$work/source"
 cd "$work/source"
-"$PYTHON" -c 'from setuptools.build_meta import *; import sys
-build_wheel(sys.argv[1]); build_sdist(sys.argv[1])' "$work/made" >"$work/log" 2>&1 || {
-    cat "$work/log" >&2
-    exit 1
-}
+mkdir "$work/made"
+for kind in wheel sdist; do
+    "$PYTHON" -c "from setuptools.build_meta import *; build_$kind('$work/made')" >"$work/log" 2>&1 || {
+        cat "$work/log" >&2
+        exit 1
+    }
+done
 wheel=$(basename "$work"/made/*.whl)
 version=$(echo "$wheel" | cut -d- -f2)
 cp "$work/made/$wheel" "$dist/"
