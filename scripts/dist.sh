@@ -57,8 +57,8 @@ mkdir -p "$work/deps/debian" "$root/DEBIAN"
 printf 'Source: lampblack\n\nPackage: pencil2d-lampblack\nArchitecture: any\n' >"$work/deps/debian/control"
 depends=$(cd "$work/deps" && dpkg-shlibdeps -O "$root/$libraries/plugins/generic/liblampblack.so" 2>/dev/null |
     sed -n 's/^shlibs:Depends=//p')
-sed -e "s|@VERSION@|$version~debian$debian|" -e "s|@ARCHITECTURE@|$architecture|" -e "s|@DEPENDS@|$depends|" \
-    -e "s|@SIZE@|$(du -sk --apparent-size "$root/usr" | cut -f1)|" packaging/control >"$root/DEBIAN/control"
+sed -e "s#@VERSION@#$version~debian$debian#" -e "s#@ARCHITECTURE@#$architecture#" -e "s#@DEPENDS@#$depends#" \
+    -e "s#@SIZE@#$(du -sk --apparent-size "$root/usr" | cut -f1)#" packaging/control >"$root/DEBIAN/control"
 dpkg-deb --root-owner-group -Zxz --build "$root" \
     "$dist/pencil2d-lampblack_$version~debian${debian}_$architecture.deb" >/dev/null
 cd "$dist" && sha256sum "$wheel" "lampblack-$version.tar.gz" pencil2d-lampblack_"$version~debian$debian"_*.deb
