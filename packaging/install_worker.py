@@ -251,7 +251,7 @@ def _download(python: Path, source: Source, packages: list[str], folder: Path) -
     for package in packages:
         name = package.split()[0]
         before = sum(file.stat().st_size for file in _files(folder))
-        one = folder.parent / "package.txt"
+        one = python.parents[1] / "package.txt"
         one.write_text(package, encoding="utf-8")
 
         def follow(line: str, name: str = name, before: int = before) -> None:

@@ -94,6 +94,7 @@ InstallCard::InstallCard(const QString& source, QWidget* parent)
             [this]
             {
                 mInstaller->cancel();
+                mWhat->setText(tr("The renderer is not installed yet."));
                 mHow->setText(tr("Cancelled. What was downloaded is kept: Install goes on from there."));
             });
     connect(mCopy, &QToolButton::clicked, this, [this] { QApplication::clipboard()->setText(mDetails); });
