@@ -21,6 +21,7 @@ from lampblack.project.psd import BLENDS
 from lampblack.project.shot import ProjectShot
 from lampblack.project.stack import Roles
 from support.layered import apart, blob
+from support.memory import little_memory
 from support.paths import ROOT
 
 SIZE = 96, 72
@@ -297,14 +298,25 @@ def test_any_flipped_byte_is_an_error_for_people_at_most(tmp_path: Path) -> None
             continue
 
 
-def test_sizes_are_refused_before_anything_is_read(tmp_path: Path) -> None:
-    psd = new()
-    put(psd, "body", blob(RED))
-    content = bytearray(saved(tmp_path, psd).read_bytes())
-    content[14:22] = struct.pack(">II", 29000, 29000)
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        (b"8BPS\0\1" + bytes(6) + struct.pack(">HIIHH", 3, 29000, 29000, 8, 3), "29000 x 29000"),
+        (b"8BPX\0\1" + bytes(6) + struct.pack(">HIIHH", 3, 60, 60, 8, 3), "no file of Photoshop"),
+        (b"8BPS\0\7" + bytes(6) + struct.pack(">HIIHH", 3, 60, 60, 8, 3), "no file of Photoshop"),
+        (b"8BPS\0\1" + bytes(6) + struct.pack(">HIIHH", 3, 0, 60, 8, 3), "0 pixels"),
+    ],
+)
+def test_little_is_read_of_what_is_refused(tmp_path: Path, start: bytes, words: str) -> None:
     path = tmp_path / "huge.psd"
-    path.write_bytes(content)
-    with pytest.raises(ProjectError, match="29000 x 29000"):
+    with path.open("wb") as file:
+        file.write(start)
+        file.truncate(900 << 20)
+    with little_memory(), pytest.raises(ProjectError, match=words):
+        shot_of(path)
+    with path.open("r+b") as file:
+        file.truncate((1 << 30) + 1)
+    with little_memory(), pytest.raises(ProjectError, match="larger than 1024 MiB"):
         shot_of(path)
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-import io
+import hashlib
 import logging
+import os
+import struct
 import threading
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,17 +22,17 @@ from psd_tools.api.layers import AdjustmentLayer, Layer
 from psd_tools.constants import ColorMode, Resource
 from psd_tools.psd.parse_limits import ParseLimits
 
-from ..cache import digest
 from ..colour import srgb
 from ..drawing.profile import to_srgb
 from ..errors import ProjectError
-from ..files import read_bounded, understood
+from ..files import open_regular, understood
 from .attributes import check_size
 
 MERGED = "merged"
 """The name of the picture of all layers."""
 MAX_BYTES = 1 << 30
 MAX_ALLOCATED = 4 << 30
+_HEADER = struct.Struct(">4sH6sHII")
 
 Picture = NDArray[np.uint8]
 Floats = NDArray[np.float32]
@@ -87,20 +90,33 @@ def open_psd(path: Path) -> tuple[PSDImage, str]:
         ProjectError: there is none, it is no file of Photoshop, is damaged or too large.
     """
     try:
-        data = read_bounded(path, MAX_BYTES)
+        with open_regular(path) as file, understood(_damaged(path)), _strictly():
+            if os.fstat(file.fileno()).st_size > MAX_BYTES:
+                raise ProjectError(
+                    f"{path} is larger than {MAX_BYTES >> 20} MiB.", "Merge some of its layers."
+                )
+            _check_header(file, path)
+            identity = hashlib.file_digest(file, "blake2b").hexdigest()
+            file.seek(0)
+            limits = ParseLimits(max_total_bytes=4 * MAX_BYTES)
+            return PSDImage.open(file, MAX_ALLOCATED, limits), identity
     except FileNotFoundError as error:
         raise ProjectError(
             f"There is no drawing at {path}.", "Check the name and the folder."
         ) from error
     except OSError as error:
         raise ProjectError(
-            f"{path} could not be read.",
-            f"Check its permissions. A file of at most {MAX_BYTES >> 20} MiB is read.",
-            str(error),
+            f"{path} could not be read.", "Check its permissions.", str(error)
         ) from error
-    limits = ParseLimits(max_total_bytes=4 * MAX_BYTES)
-    with understood(_damaged(path)), _strictly():
-        return PSDImage.open(io.BytesIO(data), MAX_ALLOCATED, limits), digest(data)
+
+
+def _check_header(file: BinaryIO, path: Path) -> None:
+    """Refuse what is no file of Photoshop, or too large a picture, before more of it is read."""
+    signature, version, _, _, height, width = _HEADER.unpack(file.read(_HEADER.size))
+    if signature != b"8BPS" or version not in (1, 2):
+        raise ValueError("no file of Photoshop")
+    check_size(width, height, path.name)
+    file.seek(0)
 
 
 @contextmanager
