@@ -232,7 +232,11 @@ void LitView::onImageArrived(const PreviewImage& image)
     mPictures.insert(image.frame, new PreviewImage(image), int(image.picture.sizeInBytes() / 1024) + 1);
     if (image.frame != mHost.currentFrame() || !mUnlit.isLoaded(image.frame))
         return;
-    showPicture(image);
+    // Compared with a drawing that has a new stroke, the picture of the drawing before would take it away.
+    const Worker::Fit fit = mWorker.fit(image);
+    const bool isLate = fit == Worker::Fit::Unknown || fit == Worker::Fit::OldDrawing;
+    if (!isLate || !mTool.isDrawing())
+        showPicture(image);
     show();
 }
 

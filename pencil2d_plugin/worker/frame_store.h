@@ -50,6 +50,8 @@ public:
     Drawing drawing(const QByteArray& digest);
 
     quint64 lastPut() const { return mLastPut; }
+    /// Whether the digest of the frame's new drawing is not known yet.
+    bool isPending(int frame) const { return mNewestPuts.contains(frame); }
     /// Whether the digests of all put() calls up to `number` are known.
     bool isHashed(quint64 number) const;
 

@@ -138,7 +138,7 @@ void WorkerSession::setScene(const Scene& scene)
 Worker::Fit WorkerSession::fit(const PreviewImage& image) const
 {
     const auto shown = mFrameStore.frames().constFind(image.frame);
-    if (shown == mFrameStore.frames().constEnd())
+    if (shown == mFrameStore.frames().constEnd() || mFrameStore.isPending(image.frame))
     {
         return Fit::Unknown;
     }

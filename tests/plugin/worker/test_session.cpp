@@ -242,9 +242,11 @@ private Q_SLOTS:
         const auto session = open("good");
         lookAtOne(*session);
         QTRY_VERIFY(!mImages.isEmpty());
-        const QByteArray before = mImages.last().digest;
+        const PreviewImage before = mImages.last();
         session->putFrame(1, sheet(Qt::blue));
-        QTRY_VERIFY(mImages.last().digest != before);
+        QVERIFY2(session->fit(before) == Worker::Fit::Unknown, "the new drawing has no digest yet");
+        QTRY_VERIFY(mImages.last().digest != before.digest);
+        QVERIFY(session->fit(before) == Worker::Fit::OldDrawing);
         QVERIFY(session->isCurrent(mImages.last()));
     }
 
