@@ -1,0 +1,160 @@
+"""Take the manual's pictures of the real Pencil2D, and record strokes that are drawn in the light.
+
+python tests/record_window.py docs/images
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+
+from PIL import Image
+
+import support.window
+from lampblack.atomic import atomic_file
+from support.lamp import Canvas, drag_light, light_up, project_in, settled
+from support.window import Display, Pencil2D, missing, pencil2d, wait_until
+
+SIZE = (1240, 860)
+VIEW = "lampblack.panel.view."
+FUR = "#4f8fb3"
+PART = (170.0, 250.0, 380.0, 380.0)
+"""What is recorded of the canvas: x, y, width, height."""
+SIDE, COLOURS = 340, 192
+EVERY = 4
+"""Moves of the pen from one picture to the next."""
+MOVE_MS, PAUSE_MS, LIT_MS = 60, 300, 2500
+
+Place = tuple[float, float]
+
+
+def take(window: Pencil2D, folder: Path, name: str) -> None:
+    """Write the window to ``pencil2d-NAME.png``."""
+    left, top, width, height = window.rect("MainWindow2")
+    picture = Image.fromarray(window.display.screenshot(left, top, width, height))
+    with atomic_file(folder / f"pencil2d-{name}.png") as file:
+        picture.save(file, "PNG", optimize=True)
+    sys.stderr.write(f"{name}\n")
+
+
+def choose(window: Pencil2D, menu: str, entry: str) -> None:
+    left, top, width, height = window.entries(menu)[entry]
+    window.click_at(left + width / 2, top + height / 2)
+
+
+def take_light_and_floor(window: Pencil2D, folder: Path) -> None:
+    canvas = Canvas(window)
+    light_up(window)
+    take(window, folder, "lit")
+    drag_light(window, canvas, (90, 250))
+    window.click_at(*canvas.screen(60, 655), button=3)
+    wait_until(lambda: window.find("lampblack.menu").get("seen"), "the menu")
+    take(window, folder, "menu")
+    choose(window, "lampblack.menu", "Put a Floor Here")
+    settled(window)
+    take(window, folder, "floor")
+    window.click(f"lampblack.materials.glossy.{FUR}")
+    settled(window)
+    take(window, folder, "glossy")
+    window.click(VIEW + "normals")
+    settled(window)
+    take(window, folder, "normals")
+    window.click(VIEW + "lit")
+    settled(window)
+
+
+def take_keys(window: Pencil2D, folder: Path) -> None:
+    canvas = Canvas(window)
+    light_up(window)
+    drag_light(window, canvas, (40, 300))
+    window.click("lampblack.panel.keys.here")
+    for place, frames in (((320, 60), 4), ((600, 300), 4)):
+        for _ in range(frames):
+            window.trigger("actionNext_Frame")
+        settled(window)
+        drag_light(window, canvas, place)
+    for _ in range(2):
+        window.trigger("actionPrevious_Frame")
+    settled(window)
+    take(window, folder, "keys")
+
+
+def strokes() -> Iterator[list[Place]]:
+    """A heart on the belly, and stripes on the fur beside it; canvas pixels."""
+    for side in (-1, 1):
+        turns = [math.pi * step / 24 for step in range(25)]
+        yield [
+            (
+                330 + side * 30 * math.sin(turn) ** 3,
+                540 - 1.9 * (13 * math.cos(turn) - 5 * math.cos(2 * turn) - 2 * math.cos(3 * turn)),
+            )
+            for turn in turns
+        ]
+    for line in range(3):
+        yield [(192 + 2.5 * i, 470 + 24 * line + i / 2) for i in range(17)]
+    for line in range(3):
+        yield [(452 + 2.5 * i, 478 + 22 * line - i / 2) for i in range(15)]
+
+
+def record_drawing(window: Pencil2D, folder: Path) -> None:
+    """Write ``pencil2d-drawing.gif``: the light stays while lines are drawn, and then follows."""
+    canvas = Canvas(window)
+    shown: list[tuple[Image.Image, int]] = []
+
+    def shoot(milliseconds: int) -> None:
+        picture = Image.fromarray(canvas.crop(*PART))
+        shown.append((picture.resize((SIDE, SIDE), Image.Resampling.LANCZOS), milliseconds))
+
+    light_up(window)
+    window.set("lampblack.keep_light", "checked", True)
+    window.click("pencilButton")
+    shoot(2 * PAUSE_MS)
+    for stroke in strokes():
+        places = [canvas.screen(x, y) for x, y in stroke]
+        for move in window.drag(places, pause=0.02):
+            if move % EVERY == 0:
+                shoot(MOVE_MS)
+        shoot(PAUSE_MS)
+    window.click("lampblackButton")
+    settled(window)
+    shoot(LIT_MS)
+    palette = shown[-1][0].quantize(COLOURS)
+    first, *others = (
+        picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture, _ in shown
+    )
+    with atomic_file(folder / "pencil2d-drawing.gif") as file:
+        first.save(
+            file, "GIF", save_all=True, append_images=others, loop=0,
+            duration=[milliseconds for _, milliseconds in shown],
+        )  # fmt: skip
+
+
+def main(target: Path) -> int:
+    if missing():
+        sys.stderr.write(f"missing: {missing()}\n")
+        return 1
+    support.window.WINDOW = SIZE
+    with tempfile.TemporaryDirectory() as name, closing(Display(Path(name))) as display:
+        folder = Path(name)
+        projects = [folder / f"{number}" for number in range(3)]
+        for project in projects:
+            project.mkdir()
+            shutil.move(project_in(folder), project / "walk.pclx")
+        opened = [project / "walk.pclx" for project in projects]
+        with pencil2d(display, folder / "window", opened[0]) as window:
+            record_drawing(window, target)
+            window.set("lampblack.keep_light", "checked", False)
+            window.open(opened[1])
+            take_light_and_floor(window, target)
+            window.open(opened[2])
+            take_keys(window, target)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))
