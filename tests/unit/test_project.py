@@ -301,6 +301,17 @@ def test_projects_of_early_versions_are_shown_as_pencil2d_shows_them(
     assert difference(mine, truth).max() <= 2
 
 
+@needs_pencil2d
+def test_a_project_that_pencil2d_saved_is_shown_as_it_shows_it() -> None:
+    """Keys of a bitmap and a vector layer, doubled, moved and added blank in Pencil2D 0.6.6."""
+    path = Path(__file__).parents[1] / "data" / "pencil2d" / "keys.pclx"
+    ours, theirs = unlit(shot_of(path)), exported(path, 1, 6)
+    assert len(ours) == 6
+    for mine, truth in zip(ours, theirs, strict=True):
+        assert truth.any()
+        assert difference(mine, truth).max() <= 2
+
+
 def test_a_picture_that_was_lost_is_told(tmp_path: Path) -> None:
     xml = document([layer(2, "figure", [image(1, "ball.png"), image(2, "gone.png", -9, 4)])])
     path = write_project(tmp_path / "w.pclx", xml, FILES)
