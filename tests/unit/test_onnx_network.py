@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,6 +83,17 @@ except LampblackError as error:
     )
     assert done.returncode == 0, done.stderr
     assert "pip install 'lampblack[torch]'" in done.stdout
+
+
+def test_it_leaves_nothing_in_the_home_and_reports_to_nobody(tmp_path: Path) -> None:
+    program = """
+from lampblack.normals.card import shipped_weights
+from lampblack.normals.onnx_network import OnnxNetwork
+OnnxNetwork.load(shipped_weights())
+"""
+    home = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin"}
+    subprocess.run([sys.executable, "-W", "ignore", "-c", program], check=True, env=home)
+    assert not list(tmp_path.rglob("*"))
 
 
 def test_a_network_that_is_missing_is_told() -> None:

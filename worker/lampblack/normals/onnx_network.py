@@ -10,7 +10,6 @@ import os
 from pathlib import Path
 
 import numpy as np
-import onnxruntime as ort
 from numpy.typing import NDArray
 
 from ..cache import digest
@@ -19,6 +18,10 @@ from ..files import read_bounded
 from .card import NetworkCard, graph_path, read_weights
 from .character import COARSE, LUMO
 from .resize import resize
+
+# It would report its use to its makers, and keep a number for this machine in the user's home.
+os.environ["ORT_DISABLE_TELEMETRY"] = "1"
+import onnxruntime as ort
 
 MAX_GRAPH_BYTES = 4 << 20
 ERRORS_ONLY = 3
