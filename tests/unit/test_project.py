@@ -306,9 +306,8 @@ def test_a_project_that_pencil2d_saved_is_shown_as_it_shows_it() -> None:
     """Keys of a bitmap and a vector layer, doubled, moved and added blank in Pencil2D 0.6.6."""
     path = Path(__file__).parents[1] / "data" / "pencil2d" / "keys.pclx"
     ours, theirs = unlit(shot_of(path)), exported(path, 1, 6)
-    assert len(ours) == 6
+    assert [bool(truth.any()) for truth in theirs] == [True, True, True, True, False, True]
     for mine, truth in zip(ours, theirs, strict=True):
-        assert truth.any()
         assert difference(mine, truth).max() <= 2
 
 
