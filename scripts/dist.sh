@@ -59,6 +59,8 @@ depends=$(cd "$work/deps" && dpkg-shlibdeps -O "$root/$libraries/plugins/generic
     sed -n 's/^shlibs:Depends=//p')
 sed -e "s#@VERSION@#$version~debian$debian#" -e "s#@ARCHITECTURE@#$architecture#" -e "s#@DEPENDS@#$depends#" \
     -e "s#@SIZE@#$(du -sk --apparent-size "$root/usr" | cut -f1)#" packaging/control >"$root/DEBIAN/control"
-dpkg-deb --root-owner-group -Zxz --build "$root" \
+# Blocks of several threads are cut as the memory of the moment allows.
+find "$root" -exec touch -h -d "@$SOURCE_DATE_EPOCH" {} +
+dpkg-deb --root-owner-group -Zxz --threads-max=1 --build "$root" \
     "$dist/pencil2d-lampblack_$version~debian${debian}_$architecture.deb" >/dev/null
 cd "$dist" && sha256sum "$wheel" "lampblack-$version.tar.gz" pencil2d-lampblack_"$version~debian$debian"_*.deb
