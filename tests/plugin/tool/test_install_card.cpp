@@ -104,6 +104,7 @@ private Q_SLOTS:
     {
         const QTemporaryDir data;
         qputenv("XDG_DATA_HOME", data.path().toUtf8());
+        qunsetenv("LAMPBLACK_PYTHON"); // as in a test run, it would name the worker
         QFile note(mFolder.filePath(QStringLiteral("lampblack.json")));
         QVERIFY(note.open(QIODevice::WriteOnly));
         note.write("{\"installer\": \"/usr/share/lampblack\"}");
