@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -270,19 +271,28 @@ def test_interrupt_leaves_no_orphan() -> None:
         assert gone(pid, 5)
 
 
-def test_child_ends_with_a_parent_that_was_killed() -> None:
+@pytest.mark.parametrize("stopped", [False, True])
+def test_child_ends_with_a_parent_that_was_killed(stopped: bool) -> None:
+    """Not with the thread that needed it first."""
     code = """
-import sys, time
+import threading, time
 from lampblack.render.client import RenderChild
-child = RenderChild().__enter__()
+child = RenderChild()
+starter = threading.Thread(target=child.start)
+starter.start()
+starter.join()
 print(child.pid, flush=True)
-time.sleep(60)
+time.sleep(120)
 """
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as parent:
         assert parent.stdout is not None
         pid = int(parent.stdout.readline())
+        while "/bpy/" not in Path(f"/proc/{pid}/maps").read_text():
+            time.sleep(0.05)
+        if stopped:
+            os.kill(pid, signal.SIGSTOP)
         parent.kill()
-    assert gone(pid, 20)
+    assert gone(pid, 3)
 
 
 def test_a_child_that_is_stopped_is_replaced_and_leaves_nothing(

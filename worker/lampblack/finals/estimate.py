@@ -77,8 +77,10 @@ def estimate(
         ) as pipeline:
             clock.start()
             outcome = render_shot(job, pipeline, sample, clock)
+        if outcome.failed and not outcome.done:
+            raise outcome.failed[0][1]
         if not outcome.done:
-            raise outcome.failed[0][1] if outcome.failed else LampblackError("There are no frames.")
+            raise LampblackError("There is no such frame.", "See which ones the input has.")
         disk = sum(path.stat().st_size for path in Path(folder, "lit").rglob("*") if path.is_file())
     first, further, repeated = clock.means()
     size = round(disk / len(outcome.done) * len(job.frames))

@@ -7,8 +7,10 @@ original stdout, until either closes.
 
 from __future__ import annotations
 
+import ctypes
 import os
 import queue
+import signal
 import sys
 import threading
 import traceback
@@ -33,11 +35,14 @@ from .wire import (
     send,
 )
 
+PR_SET_PDEATHSIG = 1
+
 Received = tuple[Message, list[Array]]
 
 
 def main() -> NoReturn:
     """Serve requests until the parent ends."""
+    _end_with_parent()
     answers = _private_stdout()
     inbox: queue.SimpleQueue[Received] = queue.SimpleQueue()
     threading.Thread(target=_read_requests, args=(inbox,), daemon=True).start()
@@ -73,6 +78,13 @@ def main() -> NoReturn:
             os._exit(0)
         except Exception as error:
             send(answers, Failed(str(error), traceback.format_exc()))
+
+
+def _end_with_parent() -> None:
+    """Let the kernel end this process with its parent. The end of the requests says it too, but not
+    to a process that is stopped."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _threes(arrays: list[Array]) -> Iterator[list[Array]]:

@@ -14,6 +14,7 @@ import tempfile
 import warnings
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from io import FileIO
 from pathlib import Path
 from types import TracebackType
@@ -54,6 +55,9 @@ KEPT_VARIABLES = (
 )
 COMMAND = (sys.executable, "-I", "-m", "lampblack.render.child")
 CARD_LOST = "The graphics card may have failed. From now on the processor is used."
+
+_STARTER = ThreadPoolExecutor(1, "render-starter")
+"""The kernel ends a child with the thread that started it: this one lives on with the process."""
 
 
 class RenderChild:
@@ -240,7 +244,8 @@ class RenderChild:
         # Blender leaves its temporary folder behind when it is ended.
         self._folder = own_folder()
         self._killed = False
-        self._process = subprocess.Popen(
+        self._process = _STARTER.submit(
+            subprocess.Popen,
             [*COMMAND, self._wanted, str(memory_path())],
             bufsize=0,
             stdin=subprocess.PIPE,
@@ -253,7 +258,7 @@ class RenderChild:
             # The user's current folder may be a downloaded project: nothing in it is to be loaded.
             cwd=os.sep,
             start_new_session=True,
-        )
+        ).result()
         unblocked(cast(FileIO, self._process.stdin))
         if self._niceness and hasattr(os, "setpriority"):
             os.setpriority(os.PRIO_PROCESS, self._process.pid, self._niceness)
