@@ -15,6 +15,7 @@ import psutil
 import pytest
 import torch
 import trimesh
+from numpy.typing import NDArray
 from PIL import Image
 
 from lampblack.errors import LampblackError
@@ -89,20 +90,22 @@ def test_whole_characters_mirror_every_map_with_the_drawing(data: Path) -> None:
         fine, coarse, truth, auxiliary = input_and_truth(character, np.random.default_rng(seed))
         inside = fine[1] > 0
         assert np.allclose(np.linalg.norm(truth, axis=0)[inside], 1, atol=0.02)
-        cells = inside.reshape(24, 4, 24, 4).mean((1, 3)) > 0.9
+        cells = by_cell(inside) > 0.9
         _rows, columns = np.nonzero(cells)
         # Lumo's x, the distance's fall and the place follow the truth's x, mirrored or not.
-        outwards = truth[0].reshape(24, 4, 24, 4).mean((1, 3))[cells]
+        outwards = by_cell(truth[0])[cells]
         assert np.corrcoef(columns, outwards)[0, 1] > 0.3
         assert np.corrcoef(coarse[LUMO][0][cells], outwards)[0, 1] > 0.7
         assert np.corrcoef(coarse[4][cells], outwards)[0, 1] < -0.3
         assert np.corrcoef(coarse[8][cells], outwards)[0, 1] > 0.7
-        assert (
-            np.corrcoef(auxiliary[0][cells], truth[2].reshape(24, 4, 24, 4).mean((1, 3))[cells])[
-                0, 1
-            ]
-            > 0.7
-        )
+        assert np.corrcoef(auxiliary[0][cells], by_cell(truth[2])[cells])[0, 1] > 0.7
+
+
+def by_cell(plane: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Means over cells of 4 x 4 pixels."""
+    rows, columns = plane.shape
+    means: NDArray[np.float32] = plane.reshape(rows // 4, 4, columns // 4, 4).mean((1, 3))
+    return means
 
 
 def test_angles_are_angles() -> None:

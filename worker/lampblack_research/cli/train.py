@@ -84,6 +84,12 @@ def train(
     batch: Annotated[
         int, typer.Option(min=1, max=256, help="Characters or tiles in a training step.")
     ] = 12,
+    rate: Annotated[
+        float,
+        typer.Option(
+            min=0.001, max=10, help="Factor on the learning rates; below 1 to refine weights."
+        ),
+    ] = 1.0,
     seed: Annotated[int, typer.Option(min=0, help="Random seed of views and weights.")] = 0,
 ) -> None:
     """Train a normal network.
@@ -95,7 +101,7 @@ def train(
     Example: lampblack train dataset/ -o runs/first --minutes 90
     """
     options = TrainingOptions(
-        minutes=minutes, threads=threads, batch=batch, seed=seed, first_side=first_side
+        minutes=minutes, threads=threads, batch=batch, rate=rate, seed=seed, first_side=first_side
     )
     if sides:
         options = replace(options, sides=tuple(sides))

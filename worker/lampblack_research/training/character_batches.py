@@ -17,6 +17,7 @@ from lampblack.normals.character import COARSE, SIDEWAYS, canvas_for, coarse_map
 from lampblack.normals.precision import fast_arithmetic
 from lampblack.normals.resize import resize
 
+from ..dataset.marks import random_marks
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
 from .character_loss import Batch, Loss, character_loss
 from .example import Example, make_examples
@@ -24,6 +25,8 @@ from .stream import Stream
 from .stretch import random_stretch, stretched
 
 FULL_BATCH_SIDE, SMALLEST_BATCH = 256, 4
+MARKED = 0.3
+"""Share of the drawings that get marks which are no edges."""
 
 
 @dataclass(frozen=True)
@@ -49,13 +52,19 @@ class CanvasCharacter:
 def place_on_canvas(
     triple: Triple, rng: np.random.Generator, sides: Sequence[int]
 ) -> CanvasCharacter:
-    """Stretch the triple's character at random, and place it on a canvas of one of ``sides``."""
+    """Stretch the triple's character at random, and place it on a canvas of one of ``sides``. Some
+    of its drawings get marks that are no edges; its truth stays as it is."""
     side = int(rng.choice(sides))
     box = _box(triple.mask)
     inside = triple.mask[box].astype(np.float32)
     planes = [triple.normals[box].astype(np.float32) / 127.0 * inside[..., None]]
-    planes += [triple.drawings[:, *box].transpose(1, 2, 0) / np.float32(255) * inside[..., None]]
-    depth = triple.depth[box] / np.float32(DEPTH_STEPS * max(inside.shape)) * inside
+    pixels = triple.depth[box] / np.float32(DEPTH_STEPS)
+    drawings = triple.drawings[:, *box] / np.float32(255)
+    for drawing in drawings:
+        if rng.random() < MARKED:
+            np.maximum(drawing, random_marks(pixels, inside > 0, rng), out=drawing)
+    planes += [drawings.transpose(1, 2, 0) * inside[..., None]]
+    depth = pixels / max(inside.shape) * inside
     planes += [depth[..., None], inside[..., None]]
     planes += [(triple.occlusion[box] == near)[..., None] for near in (IN_FRONT, BEHIND)]
     picture = np.concatenate(planes, axis=2, dtype=np.float32)

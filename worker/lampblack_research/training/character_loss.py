@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-CERTAINTY, DEPTH, OCCLUSION = 0.03, 0.4, 0.02
-DIFFERENCE, ORDER = 0.4, 0.02
+CERTAINTY, DEPTH, OCCLUSION = 0.03, 0.4, 0.05
+DIFFERENCE, ORDER = 1.0, 0.05
+SEEN = (2.0, 4.0)
+"""Weight of cells on the near and on the far side of an occlusion: they are few."""
 REACHES = (1, 2, 4)
 """Distances, in cells, over which differences of depth are compared."""
 JUMP = 0.02
@@ -60,7 +62,10 @@ def character_loss(found: tuple[Tensor, Tensor, Tensor], batch: Batch) -> Loss:
     share = cells.sum().clamp(min=1)
     depth = ((auxiliary[:, :1] - batch.auxiliary[:, :1]).abs() * cells).sum() / share
     edges = nn.functional.binary_cross_entropy_with_logits(
-        auxiliary[:, 1:], batch.auxiliary[:, 1:], reduction="none"
+        auxiliary[:, 1:],
+        batch.auxiliary[:, 1:],
+        reduction="none",
+        pos_weight=auxiliary.new_tensor(SEEN)[:, None, None],
     )
     difference, order = pair_losses(auxiliary[:, 0], batch.auxiliary[:, 0], cells[:, 0] > 0.5)
     total = mean + CERTAINTY * sure + DEPTH * depth + DIFFERENCE * difference + ORDER * order
