@@ -127,3 +127,4 @@ clean:
 schema: environment
 	$(BIN)/python protocol/make_vectors.py
 	$(BIN)/python -m lampblack.protocol.documents
+	$(BIN)/python scripts/reference.py

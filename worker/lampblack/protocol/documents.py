@@ -84,22 +84,23 @@ def message_tables(vectors: Path) -> str:
         parts.append(f"### From the {sender}\n")
         for name, kind in kinds.items():
             parts.append(f"#### `{name}`\n")
-            parts.append("\n".join(_table(schema[kind.__name__])))
+            parts.append("\n".join(table(schema[kind.__name__])))
             example = vectors / "accept" / f"{name}-from-{sender}" / "header.json"
             parts.append(f"```json\n{example.read_text(encoding='utf-8')}\n```\n")
     parts.append("### Objects within messages\n")
     for name in ("Crop", "Plane", "Swatch"):
         parts.append(f"#### {name}\n")
-        parts.append("\n".join(_table(schema[name])))
+        parts.append("\n".join(table(schema[name])))
     return "\n".join(parts)
 
 
 def connection_table() -> str:
     """The connection file as a table."""
-    return "\n".join(_table(connection_schema()))
+    return "\n".join(table(connection_schema()))
 
 
-def _table(definition: dict[str, Any]) -> Iterator[str]:
+def table(definition: dict[str, Any]) -> Iterator[str]:
+    """Lines of Markdown: an object's description, and its fields as a table."""
     yield from (definition["description"].replace("``", "`"), "")
     fields = {
         name: field
