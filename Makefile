@@ -1,8 +1,9 @@
 # make demo: light the example. make pencil2d [PROJECT=file.pclx]: open Pencil2D with the lamp tool.
 # make test: check everything. Each installs first what it needs, in the versions of requirements/.
-# make lock: renew those. make test-newest: check everything with the newest versions instead.
+# make docs: build the site of the documentation. make lock: renew the versions of requirements/.
+# make test-newest: check everything with the newest versions instead.
 .PHONY: dist demo pencil2d install uninstall environment lock plugin schema format tidy clean \
-    check check-python check-types check-cpp build-dev build-asan \
+    check check-python check-types check-cpp check-docs docs build-dev build-asan \
     test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos \
     test-window test-trixie test-sid
 
@@ -40,7 +41,7 @@ uninstall:
 # The checks and the builds go side by side. The tests, some of which watch the clock, go one kind after
 # the other, and each kind shares the machine out by itself.
 test: test-environment
-	@$(MAKE) --no-print-directory -j2 check-python check-types check-cpp build-dev build-asan
+	@$(MAKE) --no-print-directory -j2 check-python check-types check-cpp check-docs build-dev build-asan
 	@$(MAKE) --no-print-directory test-cpp
 	@$(MAKE) --no-print-directory test-asan
 	@$(MAKE) --no-print-directory test-python
@@ -83,7 +84,7 @@ IN_PENCIL2D = lampblack lampblackprobe host_gates host_view_and_camera host_unse
 CPP = $$(git ls-files 'pencil2d_plugin/*.h' 'pencil2d_plugin/*.cpp' 'tests/plugin/*.h' 'tests/plugin/*.cpp')
 
 check: environment
-	@$(MAKE) --no-print-directory -j2 check-python check-types check-cpp
+	@$(MAKE) --no-print-directory -j2 check-python check-types check-cpp check-docs
 
 check-python:
 	$(BIN)/ruff check .
@@ -94,6 +95,11 @@ check-types:
 
 check-cpp:
 	$(BIN)/clang-format --dry-run --Werror $(CPP)
+
+# Spelling, links, and words for every picture.
+check-docs:
+	$(BIN)/codespell $$(git ls-files)
+	$(BIN)/pytest -q tests/unit/test_docs.py
 
 format: environment
 	$(BIN)/ruff check --fix .
@@ -118,6 +124,10 @@ dist:
 plugin:
 	@scripts/environment.sh plugin
 	@cmake --preset release >/dev/null && cmake --build --preset release
+
+# The site of the documentation, in build/site/. A dead link is an error.
+docs:
+	scripts/site.sh
 
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache

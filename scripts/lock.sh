@@ -34,3 +34,9 @@ for lock in requirements/python3.*.txt; do
     cp "$tools/sized" "$worker"
     cp "$tools/torch" "${lock%.txt}-torch.txt"
 done
+
+# What builds the site of the documentation, for any Python.
+"$tools/bin/uv" --no-config pip compile --quiet --group pyproject.toml:docs \
+    --python-version 3.11 --python-platform x86_64-unknown-linux-gnu \
+    --generate-hashes --no-header --no-annotate --output-file "$tools/docs"
+cp "$tools/docs" requirements/docs.txt

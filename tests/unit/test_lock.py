@@ -11,7 +11,11 @@ from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parents[2]
 APART = {lock.stem: lock for lock in (ROOT / "requirements").glob("*-torch.txt")}
-LOCKS = [lock for lock in (ROOT / "requirements").glob("*.txt") if lock not in APART.values()]
+LOCKS = [
+    lock for lock in (ROOT / "requirements").glob("python*.txt") if lock not in APART.values()
+]
+DOCS = ROOT / "requirements" / "docs.txt"
+ENTRY = r"[a-z0-9-]+==\S+(\s+--hash=sha256:[0-9a-f]{64})+\s*"
 
 
 def _versions(*files: Path) -> dict[str, str]:
@@ -38,6 +42,15 @@ def test_lock_meets_every_requirement(lock: Path) -> None:
 @pytest.mark.parametrize("lock", LOCKS, ids=lambda lock: lock.stem)
 def test_lock_names_hashes_and_no_machine(lock: Path) -> None:
     for entry in lock.read_text().replace("\\\n", "").splitlines():
-        assert re.fullmatch(r"[a-z0-9-]+==\S+(\s+--hash=sha256:[0-9a-f]{64})+\s*", entry), entry
+        assert re.fullmatch(ENTRY, entry), entry
     for entry in APART[f"{lock.stem}-torch"].read_text().splitlines():
         assert re.fullmatch(r"[a-z0-9-]+==[0-9.]+", entry), entry
+
+
+def test_the_lock_of_the_site_meets_its_group() -> None:
+    versions = _versions(DOCS)
+    groups = tomllib.loads((ROOT / "pyproject.toml").read_text())["dependency-groups"]
+    for requirement in map(Requirement, groups["docs"]):
+        assert versions[requirement.name] in requirement.specifier, f"{requirement}: make lock"
+    for entry in DOCS.read_text().replace("\\\n", "").splitlines():
+        assert re.fullmatch(ENTRY, entry), entry
