@@ -11,9 +11,7 @@ from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parents[2]
 APART = {lock.stem: lock for lock in (ROOT / "requirements").glob("*-torch.txt")}
-LOCKS = [
-    lock for lock in (ROOT / "requirements").glob("python*.txt") if lock not in APART.values()
-]
+LOCKS = [lock for lock in (ROOT / "requirements").glob("python*.txt") if lock not in APART.values()]
 DOCS = ROOT / "requirements" / "docs.txt"
 ENTRY = r"[a-z0-9-]+==\S+(\s+--hash=sha256:[0-9a-f]{64})+\s*"
 
