@@ -138,3 +138,4 @@ schema: environment
 	$(BIN)/python protocol/make_vectors.py
 	$(BIN)/python -m lampblack.protocol.documents
 	$(BIN)/python scripts/reference.py
+	$(BIN)/python tests/architecture.py docs/images/architecture.svg
