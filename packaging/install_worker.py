@@ -34,6 +34,8 @@ from typing import Any, NoReturn
 MARKER = "complete.json"
 """In the environment, written last."""
 SPARE_BYTES = 200 << 20
+LEFT_OUT = "lib/python3*/site-packages/bpy/*/python/lib"
+"""Blender's Python modules for USD and others, 80 MB that the worker never loads."""
 PIP = "pip>=24.1"
 """The first that tells its progress."""
 
@@ -170,6 +172,8 @@ def install(source: Source, target: Target) -> None:
         offline = ["install", "--no-index", "--no-deps", "--find-links", wheels]
         _pip(python, [*offline, "--require-hashes", "-r", str(names)])
         _pip(python, [*offline, str(source.wheel)])
+        for folder in target.part.glob(LEFT_OUT):
+            shutil.rmtree(folder)
         tell("progress", what="Checking", done=0, total=0)
         _run([str(python), "-I", "-m", "lampblack", "--version"])
         marker = {"version": source.version, "python": sys.version.split()[0]}

@@ -23,10 +23,11 @@ from support.paths import ROOT
 
 SCRIPT = ROOT / "packaging" / "install_worker.py"
 HERE = "{}.{}".format(*sys.version_info[:2])
+BLENDER, UNUSED = "bpy/5.2/scripts/a.py", "bpy/5.2/python/lib/python3.13/site-packages/pxr/a.py"
 
 
-def wheel(folder: Path, name: str, version: str, code: str) -> Path:
-    """A wheel of one package that runs ``code`` as a program."""
+def wheel(folder: Path, name: str, version: str, code: str, *more: str) -> Path:
+    """A wheel of one package that runs ``code`` as a program, with ``more`` empty files."""
     path = folder / f"{name}-{version}-py3-none-any.whl"
     info = f"{name}-{version}.dist-info"
     files = {
@@ -34,6 +35,7 @@ def wheel(folder: Path, name: str, version: str, code: str) -> Path:
         f"{name}/__main__.py": code,
         f"{info}/METADATA": f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n",
         f"{info}/WHEEL": "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
+        **dict.fromkeys(more, ""),
     }
     record = f"{info}/RECORD,,\n"
     for file, text in files.items():
@@ -51,7 +53,7 @@ def source(folder: Path, version: str = "9.0") -> tuple[Path, Path]:
     shipped.mkdir()
     wheels.mkdir(exist_ok=True)
     wheel(shipped, "lampblack", version, "import needed")
-    needed = wheel(wheels, "needed", "1.0", "")
+    needed = wheel(wheels, "needed", "1.0", "", BLENDER, UNUSED)
     digest = hashlib.sha256(needed.read_bytes()).hexdigest()
     sizes = "# bytes to download: 0\n# bytes installed: 1000\n"
     lock = f"{sizes}needed==1.0 \\\n  --hash=sha256:{digest}\n"
@@ -98,6 +100,9 @@ def test_it_installs_updates_and_removes_in_a_folder_with_a_strange_name(tmp_pat
     python = target / "worker" / "bin" / "python"
     assert subprocess.run([python, "-I", "-m", "lampblack"]).returncode == 0
     assert sorted(path.name for path in target.iterdir()) == ["worker"]
+    (packages,) = (target / "worker").glob("lib/python*/site-packages")
+    assert (packages / BLENDER).exists()
+    assert not (packages / Path(UNUSED).parents[3]).exists()
 
     newer, _ = source(tmp_path, "9.1")
     assert state(newer, target) == "other"
