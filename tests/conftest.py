@@ -23,7 +23,7 @@ from lampblack.surface import Overlap
 from lampblack.surface_maker import SurfaceMaker
 from support.command_line import Outcome, Run
 from support.drawings import draw_ball
-from support.window import missing
+from support.window import missing, patience
 
 TESTS = Path(__file__).parent
 SHARED = ("display", "worker", "child", "pipeline")
@@ -48,7 +48,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(folder)
             item.add_marker("cycles")
         if folder == "window":
-            item.add_marker(pytest.mark.timeout(600))
+            item.add_marker(pytest.mark.timeout(600 * patience()))
             item.add_marker(pytest.mark.skipif(bool(lacking), reason=f"missing: {lacking}"))
         shared = [name for name in SHARED if name in getattr(item, "fixturenames", ())]
         if shared:

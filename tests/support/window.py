@@ -40,12 +40,14 @@ def missing() -> str:
     return ", ".join(lacking)
 
 
-def wait_until(happened: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
-    """Return the first true answer; fail after ``seconds``, naming what was waited for.
+def patience() -> float:
+    """By what LAMPBLACK_PATIENCE multiplies every time limit, on a machine that is busy."""
+    return float(os.environ.get("LAMPBLACK_PATIENCE", "1"))
 
-    On a machine that is busy, LAMPBLACK_PATIENCE makes it that many times as long.
-    """
-    seconds *= float(os.environ.get("LAMPBLACK_PATIENCE", "1"))
+
+def wait_until(happened: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
+    """Return the first true answer; fail after ``seconds``, naming what was waited for."""
+    seconds *= patience()
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
         answer = happened()
