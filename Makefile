@@ -2,7 +2,7 @@
 # make test: check everything. Each installs first what it needs, in the versions of requirements/.
 # make docs: build the site of the documentation. make lock: renew the versions of requirements/.
 # make test-newest: check everything with the newest versions instead.
-.PHONY: dist demo pencil2d install uninstall environment lock plugin schema format tidy clean \
+.PHONY: dist dist-trixie demo pencil2d install uninstall environment lock plugin schema format tidy clean \
     check check-python check-types check-cpp check-docs docs build-dev build-asan \
     test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos \
     test-window test-trixie test-sid
@@ -116,10 +116,13 @@ lock:
 environment:
 	@scripts/environment.sh
 
-# The last commit, as wheel, sdist and .deb, in dist/.
+# The last commit, as wheel, sdist and .deb, in dist/. dist-trixie: for Debian 13 (as root, in a clone).
 dist:
-	@scripts/environment.sh plugin
+	@scripts/environment.sh dist
 	scripts/dist.sh
+
+dist-trixie:
+	scripts/debian_root.sh trixie make dist
 
 plugin:
 	@scripts/environment.sh plugin

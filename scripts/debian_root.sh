@@ -37,7 +37,9 @@ fi
 DEBIAN_MIRROR=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
 
 in_root() {
-    chroot "$root" /usr/bin/env HOME=/root TMPDIR=/tmp LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"
+    # The checkout may be another user's than root's.
+    chroot "$root" /usr/bin/env HOME=/root TMPDIR=/tmp LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+        GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0=/lampblack "$@"
 }
 
 mount_all() {

@@ -4,6 +4,7 @@
 #
 #   environment.sh            the worker and its command line
 #   environment.sh plugin     also Pencil2D and what builds the plugin
+#   environment.sh dist       also what makes packages
 #   environment.sh test       also a virtual display and what drives it
 #
 # VENV names the environment, .venv unless set. Its packages have the versions of requirements/
@@ -13,9 +14,11 @@ cd "$(dirname "$0")/.."
 
 PACKAGES="libgl1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxt6"
 PLUGIN="pencil2d cmake ninja-build g++ pkg-config qtbase5-dev libqt5svg5 cppzmq-dev libzmq3-dev libsodium-dev"
+DIST="git dpkg-dev"
 TEST="ccache xvfb openbox xdotool imagemagick fonts-dejavu-core"
 case "${1:-}" in
     plugin) PACKAGES="$PACKAGES $PLUGIN" ;;
+    dist) PACKAGES="$PACKAGES $PLUGIN $DIST" ;;
     test) PACKAGES="$PACKAGES $PLUGIN $TEST" ;;
 esac
 VENV=${VENV:-.venv}
