@@ -84,6 +84,7 @@ std::optional<StandIn> StandIns::current()
     {
         made.source = kept->source;
         made.shape = kept->shape;
+        made.edges = kept->edges;
     }
     else
     {
@@ -104,8 +105,12 @@ std::optional<StandIn> StandIns::current()
     made.standIn.picture.frame = frame;
     if (!made.shape.isEmpty())
     {
-        const InstantLight light = lightOn(made.shape, scene, made.source.canvasToImage);
-        made.standIn.picture.picture = shadedDrawing(made.source.image, made.shape, light, scene);
+        if (scene.rim && made.edges.isEmpty())
+            made.edges = edgesOf(made.source.image);
+        const QTransform& camera = made.source.canvasToImage;
+        made.standIn.picture.picture =
+            shadedDrawing(made.source.image, made.shape, lightOn(made.shape, scene, camera),
+                          InstantRim(scene, made.edges, camera), scene);
         made.standIn.picture.crop = QRectF(QPointF(), QSizeF(made.source.image.size()));
     }
     const qint64 bytes = made.standIn.picture.picture.sizeInBytes() + made.source.image.sizeInBytes();

@@ -46,7 +46,8 @@ private:
     {
         FrameExport source;
         InstantShape shape;
-        Scene scene; ///< of `standIn`
+        InstantEdges edges; ///< empty until a scene has a rim
+        Scene scene;        ///< of `standIn`
         StandIn standIn;
     };
 

@@ -3,11 +3,9 @@
 #include "tool/canvas/instant_tones.h"
 
 #include <QHash>
-#include <QVector3D>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace lampblack
 {
@@ -15,129 +13,13 @@ namespace lampblack
 namespace
 {
 
-constexpr double Gamma = 2.2;
-
-/// A light as it is seen from the image.
-struct Source
-{
-    QVector3D place; ///< image pixels; of a sun the unit direction towards it
-    double radius;   ///< image pixels; of a sun the sine of its angular radius
-    bool isSun;
-    bool isBehind;
-    std::array<double, 3> colour; ///< linear, times power
-};
-
-double linear(double srgb)
-{
-    return std::pow(srgb, Gamma);
-}
-
-std::array<double, 3> linearColour(const QColor& colour, double strength)
-{
-    return {strength * linear(colour.redF()), strength * linear(colour.greenF()),
-            strength * linear(colour.blueF())};
-}
-
-QVector<Source> sourcesOf(const Scene& scene, const QTransform& canvasToImage, double scale)
-{
-    const bool alone = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                   [](const AreaLight& light) { return light.on && light.solo; });
-    QVector<Source> sources;
-    for (const AreaLight& light : scene.lights)
-    {
-        if (!light.on || (alone && !light.solo) || light.power <= 0)
-            continue;
-        const QPointF at = canvasToImage.map(QPointF(light.x, light.y));
-        Source source{QVector3D(float(at.x()), float(at.y()), float(light.z * scale)), light.size / 2 * scale,
-                      light.kind == LightKind::Sun, light.z < 0, linearColour(light.colour, light.power)};
-        if (source.isSun)
-        {
-            const QPointF middle =
-                canvasToImage.map(QPointF(scene.canvas.width / 2.0, scene.canvas.height / 2.0));
-            const QVector3D towards = source.place - QVector3D(float(middle.x()), float(middle.y()), 0);
-            const double distance = std::max(1e-3, double(towards.length()));
-            source.place = towards.normalized();
-            source.radius /= std::hypot(source.radius, distance);
-        }
-        sources.append(source);
-    }
-    return sources;
-}
-
-/// The mean cosine over a disc of light whose middle has `cosine`, partly below the horizon.
-double facing(double cosine, double sineOfRadius)
-{
-    if (cosine >= sineOfRadius)
-        return cosine;
-    if (cosine <= -sineOfRadius)
-        return 0;
-    return (cosine + sineOfRadius) * (cosine + sineOfRadius) / (4 * sineOfRadius);
-}
-
-/// Light of power 1 on a point, relative to what shows the drawn colour.
-double received(const Source& source, const QVector3D& point, const QVector3D& normal, double unit)
-{
-    if (source.isSun)
-        return facing(QVector3D::dotProduct(normal, source.place), std::max(1e-3, source.radius));
-    const QVector3D towards = source.place - point;
-    const double distance = std::max(1e-3, double(towards.length()));
-    const QVector3D direction = towards / float(distance);
-    // The disc faces the paper.
-    const double leaving = source.isBehind ? -direction.z() : direction.z();
-    if (leaving <= 0)
-        return 0;
-    const double radius = source.radius / unit;
-    const double away = distance / unit;
-    const double falloff = (radius * radius + 1) / (radius * radius + away * away);
-    const double sine = source.radius / std::hypot(source.radius, distance);
-    return falloff * leaving * facing(QVector3D::dotProduct(normal, direction), std::max(1e-3, sine));
-}
-
-float multiplier(double light)
-{
-    return float(std::pow(std::max(0.0, light), 1 / Gamma));
-}
-
-/// Elements beside the figure take the light of their neighbours in it, so that edges are smooth.
-void spread(QVector<float>& values, const InstantShape& shape)
-{
-    constexpr int Reach = 3;
-    const int width = shape.size.width();
-    const int height = shape.size.height();
-    QVector<char> known = shape.figure;
-    for (int ring = 0; ring < Reach; ++ring)
-    {
-        const QVector<char> before = known;
-        for (int y = 0; y < height; ++y)
-        {
-            for (int x = 0; x < width; ++x)
-            {
-                if (before[y * width + x] != 0)
-                    continue;
-                float sum = 0;
-                int count = 0;
-                for (int j = std::max(0, y - 1); j <= std::min(y + 1, height - 1); ++j)
-                {
-                    for (int i = std::max(0, x - 1); i <= std::min(x + 1, width - 1); ++i)
-                    {
-                        if (before[j * width + i] == 0)
-                            continue;
-                        sum += values[j * width + i];
-                        ++count;
-                    }
-                }
-                if (count == 0)
-                    continue;
-                values[y * width + x] = sum / float(count);
-                known[y * width + x] = 1;
-            }
-        }
-    }
-}
-
 /// Red, green and blue of the light at a place, how far lines enclose it, and its amount where there are
 /// tones.
 using Values = std::array<float, 5>;
+
+using Colour = std::array<float, 3>; ///< sRGB, 0 to 255, or brighter
+
+constexpr std::array<uchar, 3> White{255, 255, 255};
 
 /// A row of the picture's elements, interpolated between two rows of the grid.
 class Row
@@ -232,58 +114,17 @@ QHash<QRgb, Paint> ownPaints(const Scene& scene)
     return own;
 }
 
-} // namespace
-
-InstantLight lightOn(const InstantShape& shape, const Scene& scene, const QTransform& canvasToImage)
+/// 0 for a colour that is as dark as a line, on which there is no rim; 1 for paint.
+float paintShare(const uchar* drawn)
 {
-    const double scale = std::sqrt(std::abs(canvasToImage.determinant()));
-    const double unit = defaultHeight(scene.canvas) * scale;
-    const QVector<Source> sources = sourcesOf(scene, canvasToImage, scale);
-    const std::array<double, 3> ambient = linearColour(scene.ambient.colour, scene.ambient.strength);
-    InstantLight light;
-    for (QVector<float>* channel : {&light.red, &light.green, &light.blue})
-        channel->fill(1, shape.count());
-    const InstantTones tones(scene);
-    const QTransform imageToCanvas = canvasToImage.inverted();
-    if (!tones.isEmpty())
-        light.amount.fill(0, shape.count());
-    const auto relief = float(scene.reliefScale);
-    for (int at = 0; at < shape.count(); ++at)
-    {
-        if (shape.figure[at] == 0)
-            continue;
-        const int x = at % shape.size.width();
-        const int y = at / shape.size.width();
-        const QVector3D point(float((x + 0.5) * shape.step), float((y + 0.5) * shape.step),
-                              relief * shape.height[at]);
-        const QVector3D normal =
-            QVector3D(relief * shape.nx[at], relief * shape.ny[at], shape.nz[at]).normalized();
-        std::array<double, 3> sum = ambient;
-        for (const Source& source : sources)
-        {
-            const double share = received(source, point, normal, unit);
-            for (size_t i = 0; i < sum.size(); ++i)
-                sum[i] += share * source.colour[i];
-        }
-        if (!tones.isEmpty())
-        {
-            const double direct = std::max({sum[0] - ambient[0], sum[1] - ambient[1], sum[2] - ambient[2]});
-            const QPointF place = imageToCanvas.map(QPointF(point.x(), point.y()));
-            light.amount[at] = float(direct / tones.fullLight(place.x(), place.y()));
-        }
-        light.red[at] = multiplier(sum[0]);
-        light.green[at] = multiplier(sum[1]);
-        light.blue[at] = multiplier(sum[2]);
-    }
-    for (QVector<float>* channel : {&light.red, &light.green, &light.blue})
-        spread(*channel, shape);
-    if (!tones.isEmpty())
-        spread(light.amount, shape);
-    return light;
+    const float peak = std::max({drawn[0], drawn[1], drawn[2]});
+    return std::clamp(peak / DarkestPaint - 0.5F, 0.0F, 1.0F);
 }
 
+} // namespace
+
 QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const InstantLight& light,
-                     const Scene& scene, int longSide)
+                     const InstantRim& rim, const Scene& scene, int longSide)
 {
     const QImage source = drawing.convertToFormat(QImage::Format_RGBA8888);
     const double step = std::max(1.0, double(std::max(source.width(), source.height())) / longSide);
@@ -313,14 +154,23 @@ QImage shadedDrawing(const QImage& drawing, const InstantShape& shape, const Ins
             const float part = paint == Paint::AsDrawn ? 0 : (shape.onGround ? enclosed : 1);
             for (size_t i = 0; i < 3; ++i)
                 lamp[i] = 1 + part * (lamp[i] - 1);
-            // Bare paper that lines enclose is lit as if it were white, and the white is taken away again.
+            Colour shown{float(pixel[0]) * lamp[0], float(pixel[1]) * lamp[1], float(pixel[2]) * lamp[2]};
+            Colour paper{255 * lamp[0], 255 * lamp[1], 255 * lamp[2]};
             const float alpha = float(pixel[3]) / 255;
+            // Bare paper that lines enclose is lit as if it were white, and the white is taken away again.
             const float bare = (1 - alpha) * enclosed;
-            const float least = bare > 0 ? std::min({lamp[0], lamp[1], lamp[2], 1.0F}) : 1;
+            if (const float edge = part * rim.shareAt((x + 0.5) * step, imageY); edge > 0)
+            {
+                rim.add(edge * paintShare(pixel), pixel, shown);
+                if (bare > 0)
+                    rim.add(edge, White.data(), paper);
+            }
+            const float least =
+                bare > 0 ? std::min({paper[0] / 255, paper[1] / 255, paper[2] / 255, 1.0F}) : 1;
             const float most = 255 * (alpha + bare * (1 - least));
-            std::array<float, 3> value{};
+            Colour value{};
             for (size_t i = 0; i < value.size(); ++i)
-                value[i] = alpha * float(pixel[i]) * lamp[i] + 255 * bare * (lamp[i] - least);
+                value[i] = alpha * shown[i] + bare * (paper[i] - 255 * least);
             // What is too bright keeps its hue.
             const float peak = std::max({value[0], value[1], value[2]});
             const float scale = peak > most ? most / peak : 1;

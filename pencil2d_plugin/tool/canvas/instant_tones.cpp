@@ -9,16 +9,7 @@ namespace lampblack
 namespace
 {
 
-constexpr double Gamma = 2.2;
-constexpr double Behind = 0.25; ///< share of the full light of a light behind the paper
-
-std::array<double, 3> linear(const QColor& colour)
-{
-    return {std::pow(colour.redF(), Gamma), std::pow(colour.greenF(), Gamma),
-            std::pow(colour.blueF(), Gamma)};
-}
-
-double largest(const std::array<double, 3>& colour)
+double largest(const LinearColour& colour)
 {
     return std::max({colour[0], colour[1], colour[2]});
 }
@@ -43,7 +34,7 @@ Look lookOfTones(const Scene& scene)
 } // namespace
 
 InstantTones::InstantTones(const Scene& scene)
-    : mMiddle(float(scene.canvas.width) / 2, float(scene.canvas.height) / 2, 0)
+    : mLamps(shiningLights(scene)), mMiddle(float(scene.canvas.width) / 2, float(scene.canvas.height) / 2, 0)
 {
     const Look look = lookOfTones(scene);
     QVector<double> tones = look.tones;
@@ -54,33 +45,19 @@ InstantTones::InstantTones(const Scene& scene)
         const double end = tone + look.softness / 2;
         mSteps.append({float(begin * begin), float(std::max(end * end, begin * begin + 1e-3))});
     }
-    const bool alone = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                   [](const AreaLight& light) { return light.on && light.solo; });
-    std::array<double, 3> hue{};
+    LinearColour hue{};
     double full = 0;
-    for (const AreaLight& light : scene.lights)
+    for (const LampStrength& lamp : qAsConst(mLamps))
     {
-        if (!light.on || (alone && !light.solo))
-            continue;
-        const std::array<double, 3> colour = linear(light.colour);
-        const QVector3D place(float(light.x), float(light.y), float(light.z));
-        const double distance = std::max(1e-3F, (place - mMiddle).length());
-        const bool isSun = light.kind == LightKind::Sun;
-        const double near = isSun ? 1 : std::pow(defaultHeight(scene.canvas) / distance, 2);
-        const double behind = std::clamp(-light.z / distance / 0.3, 0.0, 1.0);
-        const double strength = light.power * largest(colour) * near * (1 - (1 - Behind) * behind);
-        mLamps.append({place, strength, isSun});
-        full = std::max(full, strength);
+        full = std::max(full, lamp.strength);
         for (size_t i = 0; i < hue.size(); ++i)
-            hue[i] += light.power * colour[i];
+            hue[i] += lamp.weight[i];
     }
     const double brightest = largest(hue);
-    std::array<double, 3> ambient = linear(scene.ambient.colour);
-    for (double& channel : ambient)
-        channel *= scene.ambient.strength;
+    const LinearColour ambient = linearColour(scene.ambient.colour, scene.ambient.strength);
     const double sum = largest(ambient) + full;
     const double exposure = sum <= 1 ? 1 : (1 + 0.35 * std::log(sum)) / sum;
-    const std::array<double, 3> tint = linear(look.shadeColour);
+    const LinearColour tint = linearColour(look.shadeColour);
     for (int level = 0; level <= Levels; ++level)
     {
         for (size_t i = 0; i < hue.size(); ++i)
@@ -88,7 +65,7 @@ InstantTones::InstantTones(const Scene& scene)
             const double shade = ambient[i] + look.shadeStrength * (tint[i] * sum - ambient[i]);
             const double lit = ambient[i] + (brightest > 0 ? full * hue[i] / brightest : 0);
             const double light = exposure * (shade + (lit - shade) * level / Levels);
-            mTable[size_t(level)][i] = float(std::pow(std::max(0.0, light), 1 / Gamma));
+            mTable[size_t(level)][i] = float(fromLinear(light));
         }
     }
 }
@@ -96,7 +73,7 @@ InstantTones::InstantTones(const Scene& scene)
 double InstantTones::fullLight(double x, double y) const
 {
     double full = 1e-6;
-    for (const Lamp& lamp : mLamps)
+    for (const LampStrength& lamp : mLamps)
     {
         const double far = (lamp.place - mMiddle).lengthSquared();
         const double near = (lamp.place - QVector3D(float(x), float(y), 0)).lengthSquared();

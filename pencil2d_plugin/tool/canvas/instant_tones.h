@@ -2,8 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
-
-#include <QVector3D>
+#include "tool/canvas/full_light.h"
 
 #include <array>
 
@@ -31,17 +30,11 @@ private:
         float begin;
         float end;
     };
-    struct Lamp
-    {
-        QVector3D place;
-        double strength; ///< of its light in the middle of the canvas
-        bool isSun;
-    };
 
     static constexpr int Levels = 64;
 
     QVector<Step> mSteps;
-    QVector<Lamp> mLamps;
+    QVector<LampStrength> mLamps;
     QVector3D mMiddle;
     std::array<std::array<float, 3>, Levels + 1> mTable{};
 };

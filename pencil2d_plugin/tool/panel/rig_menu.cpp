@@ -1,5 +1,6 @@
 #include "tool/panel/rig_menu.h"
 
+#include "scene/linear_light.h"
 #include "scene/rig_file.h"
 #include "scene/rig_place.h"
 #include "tool/panel/ball_picture.h"
@@ -14,7 +15,6 @@
 #include <QVector3D>
 
 #include <algorithm>
-#include <cmath>
 
 // Resources of a static library must be initialised, and from outside any namespace.
 static void initRigs()
@@ -40,11 +40,6 @@ public:
     }
 };
 
-double linear(double encoded)
-{
-    return std::pow(encoded, 2.2);
-}
-
 /// What falls on a white surface at `place` that faces `normal`: x right, y down, z to the viewer; the
 /// canvas's longer side is 2 long and its middle is the origin.
 QVector3D lightAtBall(const Rig& rig, const QVector3D& place, const QVector3D& normal)
@@ -52,8 +47,8 @@ QVector3D lightAtBall(const Rig& rig, const QVector3D& place, const QVector3D& n
     const double unit = defaultHeight(rig.canvas);
     const auto tint = [](const QColor& colour)
     {
-        return QVector3D(float(linear(colour.redF())), float(linear(colour.greenF())),
-                         float(linear(colour.blueF())));
+        const LinearColour light = linearColour(colour);
+        return QVector3D(float(light[0]), float(light[1]), float(light[2]));
     };
     QVector3D sum = tint(rig.ambient.colour) * float(rig.ambient.strength);
     for (const AreaLight& light : rig.lights)
@@ -83,7 +78,7 @@ QIcon rigIcon(const Rig& rig, int side, double pixelRatio)
                                  const QVector3D lit = lightAtBall(rig, normal * Radius, normal) * paint;
                                  const auto encoded = [](float value)
                                  {
-                                     return std::pow(std::clamp(double(value), 0.0, 1.0), 1 / 2.2);
+                                     return std::min(fromLinear(double(value)), 1.0);
                                  };
                                  return QColor::fromRgbF(encoded(lit.x()), encoded(lit.y()),
                                                          encoded(lit.z()));

@@ -57,7 +57,15 @@ double lightAt(const Scene& scene, double x, double y, const QTransform& camera 
 QImage shaded(const QImage& drawing, const Scene& scene)
 {
     const InstantShape shape = inflateFigure(drawing);
-    return shadedDrawing(drawing, shape, lightOn(shape, scene, {}), scene);
+    return shadedDrawing(drawing, shape, lightOn(shape, scene, {}), {}, scene);
+}
+
+/// A light on the left, and a white rim.
+Scene rimmed(double width, double away)
+{
+    Scene scene = dark(20, 150, 200);
+    scene.rim = Rim{width, Qt::white, 1, away, {}};
+    return scene;
 }
 
 } // namespace
@@ -229,6 +237,62 @@ private Q_SLOTS:
         QCOMPARE(smooth, shaded(disc(), scene));
     }
 
+    void rimIsABandAlongTheSilhouette()
+    {
+        Scene scene = rimmed(20, 0);
+        const InstantRim rim(scene, edgesOf(disc()), {});
+        for (const double angle : {0.0, 1.0, 2.5, 4.4})
+        {
+            const auto shareAt = [&](double distance)
+            {
+                const double away = Radius - distance;
+                return rim.shareAt(Middle.x() + away * std::cos(angle), Middle.y() + away * std::sin(angle));
+            };
+            QVERIFY(shareAt(3) > 0.99F);
+            QVERIFY(shareAt(14) > 0.95F);
+            QVERIFY(std::abs(shareAt(20) - 0.5F) < 0.35F);
+            QVERIFY(shareAt(27) == 0);
+            QVERIFY(shareAt(Radius) == 0);
+        }
+        scene.rim.reset();
+        QVERIFY(InstantRim(scene, edgesOf(disc()), {}).shareAt(82, 150) == 0);
+    }
+
+    void rimIsLeftOutWhereItFacesTheLight()
+    {
+        const InstantRim rim(rimmed(20, 1), edgesOf(disc()), {});
+        QVERIFY2(rim.shareAt(88, 150) < 0.05F, "towards the light");
+        QVERIFY2(rim.shareAt(312, 150) > 0.95F, "away from it");
+    }
+
+    void rimBeginsInsideTheOutline()
+    {
+        QImage outlined = disc();
+        QPainter painter(&outlined);
+        painter.setPen(QPen(Qt::black, 12));
+        painter.drawEllipse(Middle, Radius, Radius);
+        painter.end();
+        const Scene scene = rimmed(10, 0);
+        const InstantRim rim(scene, edgesOf(outlined), {});
+        QVERIFY(rim.shareAt(Middle.x() + Radius - 10, Middle.y()) > 0.9F);
+        QVERIFY(rim.shareAt(Middle.x() + Radius - 22, Middle.y()) == 0);
+        const InstantShape shape = inflateFigure(outlined);
+        const QImage picture = shadedDrawing(outlined, shape, lightOn(shape, scene, {}), rim, scene);
+        QVERIFY2(qRed(picture.pixel(320, 150)) < 5, "the line stays dark");
+        QVERIFY2(qRed(picture.pixel(310, 150)) > qRed(picture.pixel(290, 150)) + 60, "the paint beside it");
+    }
+
+    void rimMovesWithTheCamera()
+    {
+        Scene scene = rimmed(40, 1);
+        scene.lights[0].x = 40;
+        scene.lights[0].y = 300;
+        const InstantRim zoomed(scene, edgesOf(disc()), QTransform::fromScale(0.5, 0.5));
+        const InstantRim close(rimmed(20, 1), edgesOf(disc()), {});
+        for (const double x : {88.0, 200.0, 300.0, 312.0})
+            QVERIFY(std::abs(zoomed.shareAt(x, 150) - close.shareAt(x, 150)) < 0.01F);
+    }
+
     void paperAroundTheFigureIsBare()
     {
         const QImage picture = shaded(disc(), dark(20, 150, 200));
@@ -279,7 +343,8 @@ private Q_SLOTS:
         const QImage large = disc().scaled(4000, 3000);
         const InstantShape shape = inflateFigure(large);
         QVERIFY(shape.count() < 160 * 130);
-        const QImage picture = shadedDrawing(large, shape, lightOn(shape, dark(20, 150, 200), {}), Scene());
+        const QImage picture =
+            shadedDrawing(large, shape, lightOn(shape, dark(20, 150, 200), {}), {}, Scene());
         QCOMPARE(picture.size(), QSize(1024, 768));
     }
 
@@ -304,7 +369,7 @@ private Q_SLOTS:
         QBENCHMARK
         {
             const InstantShape shape = inflateFigure(large);
-            shadedDrawing(large, shape, lightOn(shape, scene, {}), scene);
+            shadedDrawing(large, shape, lightOn(shape, scene, {}), {}, scene);
         }
     }
 };
