@@ -1,13 +1,12 @@
 #include "host/camera_path.h"
 
+#include <QElapsedTimer>
+
 namespace lampblack
 {
 
 namespace
 {
-
-constexpr int MaxKeys = 1000;
-constexpr int MaxSteps = 10000;
 
 struct Stop
 {
@@ -60,68 +59,47 @@ QTransform canvasToImage(const QTransform& view, const QSize& size)
            QTransform::fromTranslate(origin.x(), origin.y());
 }
 
-std::optional<CameraPath> readCamera(const Parts& parts, const LayerRows& rows, int row, CameraMoves moves,
-                                     const CameraReader& read, const std::function<int()>& currentFrame)
+CameraReading::CameraReading(CameraMoves moves, int length, CameraSteps steps)
+    : mMoves(moves), mLength(length), mSteps(std::move(steps))
 {
-    QAction* nextKey = parts.action("actionNext_KeyFrame");
-    QAction* previousKey = parts.action("actionPrev_KeyFrame");
-    QAction* next = parts.action("actionNext_Frame");
-    QAction* previous = parts.action("actionPrevious_Frame");
-    if (nextKey == nullptr || previousKey == nullptr || next == nullptr || previous == nullptr)
-        return std::nullopt;
+}
 
-    const UpdatesOff unseen({parts.window});
-    const int layerBefore = rows.currentRow();
-    const int frameBefore = currentFrame();
-    rows.select(row);
+/// Pencil2D does not tell whether a frame is a key, but goes from key to key.
+int CameraReading::lastKey() const
+{
+    mSteps.goTo(mLength);
+    mSteps.toPreviousKey();
+    mSteps.toNextKey();
+    return mSteps.frame();
+}
 
-    // At the first and the last key the frame does not change any more.
-    const auto step = [&currentFrame](QAction* action)
+bool CameraReading::read(int most, int milliseconds)
+{
+    QElapsedTimer clock;
+    clock.start();
+    if (mLast == 0)
+        mLast = lastKey();
+    mSteps.goTo(mNext); // before its first key, a camera stands as at that key
+    for (int count = 0; count < most && !mDone && (count == 0 || clock.elapsed() < milliseconds); ++count)
     {
-        const int from = currentFrame();
-        action->trigger();
-        return currentFrame() != from;
-    };
-    const auto goToEnd = [&step](QAction* action)
-    {
-        for (int i = 0; i < MaxKeys && step(action); ++i)
-        {
-        }
-    };
-    const auto goTo = [&](int frame)
-    {
-        // By keys first: each frame on the way takes time.
-        while (currentFrame() > frame && step(previousKey))
-        {
-        }
-        for (int i = 0; i < MaxSteps && currentFrame() != frame; ++i)
-            (currentFrame() < frame ? next : previous)->trigger();
-    };
-    goToEnd(previousKey);
-    goToEnd(nextKey);
-    const int last = currentFrame();
-    goToEnd(previousKey);
-    CameraPath path;
-    Stop before;
-    bool whole = true;
-    do
-    {
-        const std::optional<QTransform> view = read();
-        whole = view.has_value();
-        if (!whole)
-            break;
-        const Stop here{currentFrame(), *view};
-        if (path.isEmpty())
-            path.insert(here.frame, here.view);
+        const std::optional<QTransform> view = mSteps.read();
+        if (!view)
+            return false;
+        const Stop here{mSteps.frame(), *view};
+        if (mPath.isEmpty())
+            mPath.insert(here.frame, here.view);
         else
-            addViews(&path, before, here);
-        before = here;
-    } while (currentFrame() < last && step(moves == CameraMoves::Straight ? nextKey : next));
-
-    goTo(frameBefore);
-    if (layerBefore >= 0)
-        rows.select(layerBefore);
-    return whole ? std::optional<CameraPath>(path) : std::nullopt;
+            addViews(&mPath, {mBefore, mViewBefore}, here);
+        mBefore = here.frame;
+        mViewBefore = here.view;
+        if (mMoves == CameraMoves::Straight)
+            mSteps.toNextKey();
+        else
+            mSteps.goTo(here.frame + 1);
+        mNext = mSteps.frame();
+        mDone = here.frame >= mLast || mNext <= here.frame;
+    }
+    return true;
 }
 
 } // namespace lampblack

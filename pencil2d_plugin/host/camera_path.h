@@ -1,10 +1,10 @@
 // The view of the camera at each frame.
 #pragma once
 
-#include "host/layer_rows.h"
 #include "host/view_reader.h"
 
 #include <QMap>
+#include <QSize>
 
 #include <functional>
 
@@ -24,9 +24,6 @@ QPointF originIn(const QSize& size);
 /// Transforms canvas coordinates to an exported picture of this size under this view.
 QTransform canvasToImage(const QTransform& view, const QSize& size);
 
-/// The view of the camera whose layer is the current one, at the current frame.
-using CameraReader = std::function<std::optional<QTransform>()>;
-
 /// How cameras move between two keys: straight, as in Pencil2D 0.6; or by curves that only Pencil2D knows.
 enum class CameraMoves
 {
@@ -34,10 +31,42 @@ enum class CameraMoves
     Curved
 };
 
-/// Read the path of the camera layer in `row`, by going from its first key to its last: to each key, or to
-/// each frame if it moves in curves, which takes time. The current frame and layer are restored. No value on
-/// failure, after which the current frame may be another one.
-std::optional<CameraPath> readCamera(const Parts& parts, const LayerRows& rows, int row, CameraMoves moves,
-                                     const CameraReader& read, const std::function<int()>& currentFrame);
+/// What is done with the program to read a camera, whose layer is the current one.
+struct CameraSteps
+{
+    std::function<std::optional<QTransform>()> read; ///< the view at the current frame
+    std::function<int()> frame;                      ///< the current frame
+    std::function<void(int)> goTo;
+    std::function<void()> toNextKey;
+    std::function<void()> toPreviousKey;
+};
+
+/// Reads the path of a camera, a few frames at a time: its keys, or every frame up to its last key if it
+/// moves in curves.
+class CameraReading
+{
+public:
+    /// `length`: of the animation, frames.
+    CameraReading(CameraMoves moves, int length, CameraSteps steps);
+
+    /// Read at least one frame more, and at most so many, for so long. Afterwards the current frame is
+    /// another one. False if a view is not to be had.
+    bool read(int most, int milliseconds);
+    bool isDone() const { return mDone; }
+    const CameraPath& path() const { return mPath; }
+
+private:
+    int lastKey() const;
+
+    CameraMoves mMoves;
+    int mLength;
+    CameraSteps mSteps;
+    CameraPath mPath;
+    int mLast = 0; ///< key; 0 while it is not known
+    int mNext = 1;
+    int mBefore = 0; ///< the frame that was read last
+    QTransform mViewBefore;
+    bool mDone = false;
+};
 
 } // namespace lampblack

@@ -67,7 +67,7 @@ void FrameQueue::exportNext()
 {
     if (mRequests.isEmpty())
         return;
-    if (mPlaying || !mIdleness->isIdle())
+    if (mPlaying || mWaiting || !mIdleness->isIdle())
     {
         mTimer.start(RetryMs);
         return;

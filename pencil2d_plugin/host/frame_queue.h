@@ -30,6 +30,8 @@ public:
     void setCurrentFrame(int frame) { mCurrentFrame = frame; }
     /// Nothing is exported while the animation plays.
     void setPlaying(bool playing) { mPlaying = playing; }
+    /// Export nothing for now.
+    void setWaiting(bool waiting) { mWaiting = waiting; }
     void setCamera(const QString& name) { mCamera = name; }
     /// The layers, top first, as last read. Needed to hide the right rows.
     void setLayers(const QVector<Layer>& layers) { mLayers = layers; }
@@ -65,6 +67,7 @@ private:
     int mCurrentFrame = 1;
     double mFrameMs = 60; ///< time to export a frame, as last measured
     bool mPlaying = false;
+    bool mWaiting = false;
 };
 
 } // namespace lampblack

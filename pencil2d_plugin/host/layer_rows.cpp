@@ -1,13 +1,12 @@
 #include "host/layer_rows.h"
 
+#include "host/timeline_cells.h"
 #include "host/unseen_dialogs.h"
 
 #include <QApplication>
 #include <QInputDialog>
 #include <QLineEdit>
-#include <QMouseEvent>
 #include <QPainter>
-#include <QScrollBar>
 
 #include <array>
 #include <cmath>
@@ -18,45 +17,13 @@ namespace lampblack
 namespace
 {
 
-constexpr int RowHeight = 20; ///< of the header too
+constexpr int RowHeight = TimelineRowHeight;
 constexpr int EyeX = 10;
 constexpr int NameX = 80;
 const QPoint IconCorner(19, -2);
 constexpr int IconReach = 7; ///< each kind and version has its own place, a few pixels from another's
 constexpr int MaxRows = 500;
 const QPoint EyeCentre(EyeX, 8);
-
-/// Scrolls the list to a row while it exists, then back.
-class ScrollToRow
-{
-public:
-    ScrollToRow(QWidget* cells, int row) : mCells(cells)
-    {
-        QMetaObject::invokeMethod(cells, "vScrollChange", Qt::DirectConnection, Q_ARG(int, row));
-    }
-    ~ScrollToRow()
-    {
-        int offset = 0;
-        const auto bars = mCells->window()->findChildren<QScrollBar*>();
-        for (const QScrollBar* bar : bars)
-        {
-            if (bar->orientation() == Qt::Vertical &&
-                isClass(bar->parentWidget()->parentWidget(), "TimeLine"))
-                offset = bar->value();
-        }
-        QMetaObject::invokeMethod(mCells, "vScrollChange", Qt::DirectConnection, Q_ARG(int, offset));
-    }
-    Q_DISABLE_COPY_MOVE(ScrollToRow)
-
-private:
-    QWidget* mCells;
-};
-
-void sendMouse(QWidget* widget, QEvent::Type type, const QPoint& at, Qt::MouseButtons buttons)
-{
-    QMouseEvent event(type, at, widget->mapToGlobal(at), Qt::LeftButton, buttons, Qt::NoModifier);
-    QCoreApplication::sendEvent(widget, &event);
-}
 
 int difference(QRgb a, QRgb b)
 {
@@ -116,7 +83,7 @@ UpdatesOff::~UpdatesOff()
 
 QImage LayerRows::renderRow(int row) const
 {
-    const ScrollToRow scroll(mParts.layerCells, row);
+    const ScrolledCells scroll(mParts.layerCells, Qt::Vertical, row);
     QImage image(mParts.layerCells->width(), RowHeight, QImage::Format_RGB32);
     image.fill(Qt::magenta);
     mParts.layerCells->render(&image, QPoint(), QRegion(0, RowHeight, image.width(), RowHeight),
@@ -126,11 +93,8 @@ QImage LayerRows::renderRow(int row) const
 
 void LayerRows::clickAt(int row, int x) const
 {
-    const ScrollToRow scroll(mParts.layerCells, row);
-    const QPoint at(x, RowHeight + RowHeight / 2);
-    // Always both: a release alone would drop the layer that was last pressed onto this row.
-    sendMouse(mParts.layerCells, QEvent::MouseButtonPress, at, Qt::LeftButton);
-    sendMouse(mParts.layerCells, QEvent::MouseButtonRelease, at, Qt::NoButton);
+    const ScrolledCells scroll(mParts.layerCells, Qt::Vertical, row);
+    sendClick(mParts.layerCells, QPoint(x, RowHeight + RowHeight / 2));
 }
 
 void LayerRows::clickEye(int row) const
@@ -178,7 +142,7 @@ QVector<bool> LayerRows::eyes(int count) const
 
 void LayerRows::openProperties(int row) const
 {
-    const ScrollToRow scroll(mParts.layerCells, row);
+    const ScrolledCells scroll(mParts.layerCells, Qt::Vertical, row);
     sendMouse(mParts.layerCells, QEvent::MouseButtonDblClick, QPoint(NameX, RowHeight + RowHeight / 2),
               Qt::LeftButton);
 }

@@ -38,7 +38,8 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
     : Host(parent), mParts(parts), mIdleness(nullptr), mTransport(parts, nullptr), mProject(parts, nullptr),
       mLeaveGuard(parts, nullptr), mTitleMark(parts, nullptr), mPlaces(parts), mRows(parts), mGuides(parts),
       mView(parts), mQueue(parts, &mIdleness, nullptr), mDelivery(parts, &mIdleness, nullptr),
-      mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr), mOptions(parts, nullptr),
+      mDrawing(parts, &mIdleness, nullptr), mPalette(parts, nullptr),
+      mCameraSurvey(parts, &mIdleness, &mTransport, &mPalette, &mView), mOptions(parts, nullptr),
       mCanvasSize(DefaultCanvas)
 {
     connect(&mPalette, &ToolPalette::activated, this,
@@ -88,6 +89,7 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
                 Q_EMIT layerDelivered(name);
             });
     connect(&mDelivery, &LayerDelivery::failed, this, &Host::layerFailed);
+    connect(&mCameraSurvey, &CameraSurvey::read, this, &Pencil2DHost::onCameraRead);
     if (has(parts.view, "viewChanged()"))
         connect(parts.view, SIGNAL(viewChanged()), this, SIGNAL(viewChanged()));
     if (has(parts.layers, "currentLayerChanged(int)"))
@@ -170,6 +172,12 @@ std::optional<QTransform> Pencil2DHost::canvasToWidget() const
     // Pencil2D 0.6 scales what it painted, where a screen has more pixels than logical ones.
     const double ratio = mParts.isSince07 ? mParts.canvas->devicePixelRatioF() : 1;
     return toOrigin * snappedToPixels(matrices->widget, ratio);
+}
+
+void Pencil2DHost::goToFrame(int frame)
+{
+    const Idleness::Work work(&mIdleness);
+    mTransport.goTo(frame);
 }
 
 QColor Pencil2DHost::paper() const
@@ -259,6 +267,7 @@ void Pencil2DHost::onProjectOpened(const QString& path)
 {
     mQueue.cancel();
     mDelivery.cancel();
+    leaveCamera();
     mLayers.clear();
     mLayersKnown = false;
     mCameraKnown = false;
@@ -270,6 +279,7 @@ void Pencil2DHost::onProjectOpened(const QString& path)
 void Pencil2DHost::onLayersMaybeChanged()
 {
     mLayersKnown = false;
+    mCameraKnown = mCameraKnown && !mCameraSurvey.isReading(); // it may be in another row now
     mSurveyTimer.start();
 }
 
@@ -317,15 +327,8 @@ void Pencil2DHost::surveyProject()
     }
     if (!mCameraKnown)
     {
-        for (int row = mLayers.size() - 1; row >= 0; --row)
-        {
-            if (mLayers[row].kind == Layer::Kind::Camera && mLayers[row].name == mCameraName)
-            {
-                surveyCamera(row);
-                break;
-            }
-        }
         mCameraKnown = true;
+        surveyCamera();
     }
 }
 
@@ -370,52 +373,35 @@ void Pencil2DHost::surveyEyes()
     Q_EMIT drawingChanged(currentFrame());
 }
 
-void Pencil2DHost::surveyCamera(int row)
+/// Frames wait for it.
+void Pencil2DHost::surveyCamera()
 {
-    const Idleness::Work work(&mIdleness);
-    const QSignalBlocker still(&mTransport);
-    const auto path = mParts.isSince07 ? readDrawnCamera(row) : readShownCamera(row);
-    const bool moved = !isStatic(mCamera) || (path && !isStatic(*path));
-    const bool changed = moved && mCamera != path.value_or(CameraPath());
-    mCamera = path.value_or(CameraPath());
+    leaveCamera();
+    for (int row = mLayers.size() - 1; row >= 0; --row)
+    {
+        if (!isCamera(row) || mLayers[row].name != mCameraName)
+            continue;
+        mQueue.setWaiting(true);
+        mCameraSurvey.begin(row, mCanvasSize);
+        return;
+    }
+}
+
+void Pencil2DHost::leaveCamera()
+{
+    mCameraSurvey.cancel();
+    mQueue.setWaiting(false);
+}
+
+void Pencil2DHost::onCameraRead(const CameraPath& path)
+{
+    const bool moved = !isStatic(mCamera) || !isStatic(path);
+    const bool changed = moved && mCamera != path;
+    mCamera = path;
+    mQueue.setWaiting(false);
     // Frames exported before show the camera as it was.
     if (changed)
         Q_EMIT layersChanged();
-}
-
-/// Pencil2D 0.6 shows the canvas through the camera whose layer is the current one.
-std::optional<CameraPath> Pencil2DHost::readShownCamera(int row)
-{
-    const auto read = [this]() -> std::optional<QTransform>
-    {
-        const auto matrices = mView.read();
-        return matrices ? std::optional<QTransform>(matrices->view) : std::nullopt;
-    };
-    return readCamera(mParts, mRows, row, CameraMoves::Straight, read,
-                      [this] { return mTransport.currentFrame(); });
-}
-
-/// Pencil2D 0.7 draws its frame instead, while the tool that moves it is in use.
-std::optional<CameraPath> Pencil2DHost::readDrawnCamera(int row)
-{
-    std::optional<CameraPath> path;
-    const UpdatesOff unseen({mParts.window});
-    const int rowBefore = mRows.currentRow();
-    const auto read = [this]() -> std::optional<QTransform>
-    {
-        const auto matrices = mView.read();
-        return matrices ? readCameraFrame(mParts.canvas, matrices->widget, mCanvasSize) : std::nullopt;
-    };
-    mRows.select(row);
-    mPalette.workWith(mParts.action("actionMove"),
-                      [&]
-                      {
-                          path = readCamera(mParts, mRows, row, CameraMoves::Curved, read,
-                                            [this] { return mTransport.currentFrame(); });
-                          mRows.select(rowBefore);
-                      });
-    mRows.select(rowBefore);
-    return path;
 }
 
 Host* createHost(QObject* parent)

@@ -1,8 +1,7 @@
 // The host for an unmodified Pencil2D 0.6 or 0.7. It uses its widgets, actions and meta-objects.
 #pragma once
 
-#include "host/camera_frame.h"
-#include "host/camera_path.h"
+#include "host/camera_survey.h"
 #include "host/drawing_watch.h"
 #include "host/frame_queue.h"
 #include "host/guides.h"
@@ -46,7 +45,7 @@ public:
     void paintGuides(QPainter* painter) const override { mGuides.paint(painter); }
 
     int currentFrame() const override { return mTransport.currentFrame(); }
-    void goToFrame(int frame) override { mTransport.goTo(frame); }
+    void goToFrame(int frame) override;
     int frameCount() const override { return mTransport.frameCount(); }
     double framesPerSecond() const override { return mTransport.framesPerSecond(); }
     bool isPlaying() const override { return mTransport.isPlaying(); }
@@ -75,9 +74,9 @@ private Q_SLOTS:
 
 private:
     void surveyProject();
-    void surveyCamera(int row);
-    std::optional<CameraPath> readShownCamera(int row);
-    std::optional<CameraPath> readDrawnCamera(int row);
+    void surveyCamera();
+    void leaveCamera();
+    void onCameraRead(const CameraPath& path);
     void forgetCamera();
     void onDialogRead(const ExportResult& exported);
     void onExported(int frame, const QStringList& layers, const QImage& image);
@@ -101,6 +100,7 @@ private:
     LayerDelivery mDelivery;
     DrawingWatch mDrawing;
     ToolPalette mPalette;
+    CameraSurvey mCameraSurvey;
     OptionsPage mOptions;
     QTimer mSurveyTimer;
 

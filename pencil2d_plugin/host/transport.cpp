@@ -1,5 +1,7 @@
 #include "host/transport.h"
 
+#include "host/timeline_cells.h"
+
 #include <QLabel>
 #include <QRegularExpression>
 #include <QSignalBlocker>
@@ -43,13 +45,22 @@ Transport::Transport(const Parts& parts, QObject* parent) : QObject(parent), mPa
 
 void Transport::goTo(int frame)
 {
-    QAction* next = mParts.action("actionNext_Frame");
-    QAction* previous = mParts.action("actionPrevious_Frame");
-    if (next == nullptr || previous == nullptr || mPlaying || frame < 1 || frame > LastFrame)
+    if (mPlaying || frame < 1 || frame > LastFrame || frame == mFrame)
         return;
     const int from = mFrame;
     {
         const QSignalBlocker onTheWay(this);
+        if (mParts.trackCells != nullptr)
+        {
+            // The first frame in sight, in the header.
+            const ScrolledCells scroll(mParts.trackCells, Qt::Horizontal, frame - 1);
+            sendClick(mParts.trackCells, QPoint(1, TimelineRowHeight / 2));
+        }
+        // A timeline that is another one is left to the keys.
+        QAction* next = mParts.action("actionNext_Frame");
+        QAction* previous = mParts.action("actionPrevious_Frame");
+        if (next == nullptr || previous == nullptr)
+            return;
         int before = 0;
         while (mFrame != frame && mFrame != before)
         {

@@ -1,10 +1,12 @@
 // Tests of Host that run inside the real Pencil2D, as a plugin.
+#include "host/camera_survey.h"
 #include "host/host.h"
 #include "host/layer_rows.h"
 #include "host/parts.h"
 #include "host/unseen_dialogs.h"
 #include "known_drawing.h"
 
+#include <QAbstractEventDispatcher>
 #include <QApplication>
 #include <QDir>
 #include <QGenericPlugin>
@@ -18,6 +20,7 @@
 #include <QTimer>
 #include <QToolButton>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -408,6 +411,36 @@ private Q_SLOTS:
                                         .arg(QLineF(expected, *found).length())));
             }
         }
+    }
+
+    void aLongCameraIsReadBetweenTheArtistsEvents()
+    {
+        QSignalSpy opened(mHost, &Host::projectOpened);
+        QSignalSpy layers(mHost, &Host::layersChanged);
+        QSignalSpy scrubbed(mParts.editor, SIGNAL(scrubbed(int)));
+        qsizetype most = 0;
+        qsizetype all = 0;
+        const auto connection =
+            connect(QAbstractEventDispatcher::instance(), &QAbstractEventDispatcher::awake, this,
+                    [&]
+                    {
+                        most = std::max<qsizetype>(most, scrubbed.size());
+                        all += scrubbed.size();
+                        scrubbed.clear();
+                    });
+        QVERIFY(mHost->openProject(qEnvironmentVariable("VISITOR_LONG_PROJECT")));
+        QTRY_COMPARE(opened.size(), 1);
+        constexpr int PatienceMs = 60000;
+        QTRY_COMPARE_WITH_TIMEOUT(layers.size(), 2, PatienceMs); // the list, then the camera
+        disconnect(connection);
+        constexpr int OnTheWay = 6; // to its last key, and back to the artist's frame
+        QVERIFY2(most <= CameraSurvey::MostFrames + OnTheWay, qPrintable(QString::number(most)));
+        QVERIFY(!mParts.isSince07 || all >= known::LongMove);
+        QCOMPARE(mHost->currentFrame(), 1);
+        QCOMPARE(mRows.currentRow(), 1);
+        const auto frames = take(known::Frames, known::Frames);
+        QVERIFY(
+            areNear(frames[known::Frames].canvasToImage, QTransform::fromTranslate(known::Frames - 1, 0)));
     }
 
     void viewThroughACamera()

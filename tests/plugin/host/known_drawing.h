@@ -172,5 +172,9 @@ const QByteArray StillCamera = "<camera frame=\"1\" r=\"0\" s=\"1\" dx=\"0\" dy=
 const QByteArray MovingCamera =
     "<camera frame=\"1\" r=\"10\" s=\"0.9\" dx=\"30\" dy=\"-12\" easing=\"3\" pathCPX=\"20\" pathCPY=\"60\"/>"
     "<camera frame=\"4\" r=\"50\" s=\"0.7\" dx=\"60\" dy=\"20\"/>";
+/// It moves over many frames.
+constexpr int LongMove = 150;
+const QByteArray LongCamera = "<camera frame=\"1\" r=\"0\" s=\"1\" dx=\"0\" dy=\"0\"/><camera frame=\"" +
+                              QByteArray::number(LongMove) + "\" r=\"0\" s=\"1\" dx=\"149\" dy=\"0\"/>";
 
 } // namespace known

@@ -33,6 +33,8 @@ private Q_SLOTS:
         const QString moving = home.filePath(QStringLiteral("moving.pclx"));
         QVERIFY(known::writeProject(still, known::StillCamera));
         QVERIFY(known::writeProject(moving, known::MovingCamera));
+        const QString longMove = home.filePath(QStringLiteral("long.pclx"));
+        QVERIFY(known::writeProject(longMove, known::LongCamera));
 
         QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
         environment.insert(QStringLiteral("HOME"), home.path());
@@ -43,6 +45,7 @@ private Q_SLOTS:
         environment.insert(QStringLiteral("QT_QPA_GENERIC_PLUGINS"), visitor);
         environment.insert(QStringLiteral("QT_SCALE_FACTOR"), scale);
         environment.insert(QStringLiteral("VISITOR_MOVING_PROJECT"), moving);
+        environment.insert(QStringLiteral("VISITOR_LONG_PROJECT"), longMove);
         QProcess pencil;
         pencil.setProcessEnvironment(environment);
         pencil.setProcessChannelMode(QProcess::MergedChannels);

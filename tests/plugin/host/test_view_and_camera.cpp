@@ -7,6 +7,7 @@
 
 #include <QTest>
 
+#include <algorithm>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -109,6 +110,83 @@ private Q_SLOTS:
         QCOMPARE(cameraAt(path, 7), b);
         QCOMPARE(cameraAt(path, 90), b);
         QVERIFY(cameraAt({}, 5).isIdentity());
+    }
+
+    void cameraIsReadSomeFramesAtATime_data()
+    {
+        QTest::addColumn<bool>("curved");
+        QTest::newRow("0.6, by keys") << false;
+        QTest::newRow("0.7, by frames") << true;
+    }
+
+    void cameraIsReadSomeFramesAtATime()
+    {
+        QFETCH(bool, curved);
+        constexpr int Most = 8;
+        constexpr int Length = 90;
+        const QVector<int> keys{3, 20, 30, 71};
+        int now = 12;
+        int reads = 0;
+        const auto viewAt = [](int frame)
+        {
+            return QTransform::fromTranslate(qBound(3, frame, 71), 0);
+        };
+        CameraSteps steps;
+        steps.read = [&]() -> std::optional<QTransform>
+        {
+            ++reads;
+            return viewAt(now);
+        };
+        steps.frame = [&]
+        {
+            return now;
+        };
+        steps.goTo = [&](int frame)
+        {
+            now = frame;
+        };
+        steps.toNextKey = [&]
+        {
+            const auto next = std::upper_bound(keys.begin(), keys.end(), now);
+            now = next == keys.end() ? now : *next;
+        };
+        steps.toPreviousKey = [&]
+        {
+            const auto next = std::lower_bound(keys.begin(), keys.end(), now);
+            now = next == keys.begin() ? now : *std::prev(next);
+        };
+        CameraReading reading(curved ? CameraMoves::Curved : CameraMoves::Straight, Length, steps);
+        int goes = 0;
+        while (!reading.isDone())
+        {
+            reads = 0;
+            now = 12; // the artist's
+            QVERIFY(reading.read(Most, 1000));
+            QVERIFY(reads >= 1 && reads <= Most);
+            QVERIFY(++goes <= Length);
+        }
+        QVERIFY(!curved || goes == 9);
+        for (int frame = 1; frame <= Length; ++frame)
+            QVERIFY2(areNear(cameraAt(reading.path(), frame), viewAt(frame)),
+                     qPrintable(QString::number(frame)));
+    }
+
+    void cameraThatCannotBeReadIsTold()
+    {
+        CameraSteps steps;
+        steps.read = []() -> std::optional<QTransform>
+        {
+            return std::nullopt;
+        };
+        steps.frame = []
+        {
+            return 1;
+        };
+        steps.goTo = [](int) {
+        };
+        steps.toNextKey = steps.toPreviousKey = [] {
+        };
+        QVERIFY(!CameraReading(CameraMoves::Curved, 1, steps).read(8, 1000));
     }
 
     void cameraIsKnownByItsFrame()
