@@ -158,8 +158,10 @@ void LitLayer::onPrepared(const QString& project, const QString& error, const QV
         return;
     if (!error.isEmpty())
     {
-        reportFailure({tr("The project could not be backed up, so no layer was put into it."),
-                       tr("See that there is space and that you may write beside the project."), error});
+        reportFailure({tr("The project could not be backed up, so the layer was not added."),
+                       tr("Check that there is space on the disk, and that you may write to the folder of "
+                          "the project."),
+                       error});
         return;
     }
     mBackedUp.insert(project);

@@ -47,8 +47,9 @@ bool ProjectScene::mayLeave()
         return true;
     const QString title = mLayer.isUnsaved() ? tr("Save the lit layer?") : tr("Save the light?");
     const QString question =
-        mLayer.isUnsaved() ? tr("The project has a new layer of lit frames, not saved yet. Save the project?")
-                           : tr("The light of this project was changed. Save it?");
+        mLayer.isUnsaved()
+            ? tr("The project has a new layer with lit frames, which is not saved. Save the project?")
+            : tr("The light of this project was changed. Save it?");
     const auto answer = QMessageBox::question(mHost.window(), title, question,
                                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
                                               QMessageBox::Save);

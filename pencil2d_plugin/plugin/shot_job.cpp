@@ -167,7 +167,7 @@ void ShotJob::renderFrames(const QVector<int>& frames, const RenderChoices& choi
         return;
     if (outputFolder().isEmpty())
     {
-        Q_EMIT problem({tr("The project has no file yet, so there is no place for its lit frames."),
+        Q_EMIT problem({tr("The project has no file yet, so there is no folder for its lit frames."),
                         tr("Save the project, then render."),
                         {}});
         return;
@@ -296,7 +296,7 @@ void ShotJob::reportMissing()
                         .arg(missing.size())
                         .arg(mTotal)
                         .arg(formatFrames(missing)),
-                    tr("The others are done. Render again for those that are missing."),
+                    tr("The other frames are done. Render again to get the missing frames."),
                     mErrors.join(QLatin1Char('\n'))});
 }
 

@@ -64,7 +64,7 @@ std::optional<UserError> writeRigFile(const QString& path, const Rig& rig)
     if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit())
         return std::nullopt;
     return UserError{tr("The lights could not be saved in %1.").arg(QFileInfo(path).fileName()),
-                     tr("Choose a folder in which you may write."),
+                     tr("Choose a folder that you may write to."),
                      path + QLatin1String(": ") + file.errorString()};
 }
 

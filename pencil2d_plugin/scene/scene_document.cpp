@@ -146,7 +146,7 @@ bool SceneDocument::load(const QString& projectPath)
     const QString aside = setAside(path);
     if (!aside.isEmpty())
     {
-        error.remedy = tr("It was kept as %1. Set the light anew.").arg(QFileInfo(aside).fileName());
+        error.remedy = tr("The old file was kept as %1. Make new lights.").arg(QFileInfo(aside).fileName());
     }
     Q_EMIT problem(error);
     return false;

@@ -22,14 +22,15 @@ QString tr(const char* text)
 UserError unusable(const QString& path, const QString& why)
 {
     return {tr("The light saved in %1 cannot be used.").arg(QFileInfo(path).fileName()),
-            tr("Correct that file, or set the light anew."), path + QLatin1String(": ") + why};
+            tr("Correct that file, or make new lights."), path + QLatin1String(": ") + why};
 }
 
 UserError unwritable(const QString& path, const QString& why)
 {
-    return {tr("The light could not be saved in %1.").arg(QFileInfo(path).fileName()),
-            tr("Make room or allow writing in its folder, then save again."),
-            path + QLatin1String(": ") + why};
+    return {
+        tr("The light could not be saved in %1.").arg(QFileInfo(path).fileName()),
+        tr("Check that there is space on the disk, and that you may write to the folder. Then save again."),
+        path + QLatin1String(": ") + why};
 }
 
 } // namespace
@@ -74,7 +75,7 @@ std::optional<UserError> writeSceneFile(const QString& path, const Scene& scene)
     if (QFileInfo::exists(path) && std::holds_alternative<UserError>(readSceneFile(path)) &&
         setAside(path).isEmpty())
     {
-        return unwritable(path, tr("the broken file there cannot be moved aside"));
+        return unwritable(path, tr("the damaged file there cannot be renamed"));
     }
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())

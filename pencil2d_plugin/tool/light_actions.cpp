@@ -17,15 +17,15 @@ LightActions::LightActions(Host& host, QObject* parent)
         host.addLightAction(action);
     };
     add(mSurfaces, QStringLiteral("lampblack.surfaces"), tr("Generate Surfaces"),
-        tr("Model every frame now, so that scrubbing and playing are lit at once."));
+        tr("Find the volume of every frame now. Then you see the light at once while you scrub and play."));
     add(mRender, QStringLiteral("lampblack.render"), tr("Render All Frames"),
-        tr("Light every frame at the chosen quality, into a layer \"Lit\" and image files beside the "
-           "project"));
+        tr("Light every frame with the chosen quality. You get a layer \"Lit\", and picture files in the "
+           "folder of the project"));
     add(mCancel, QStringLiteral("lampblack.cancel"), tr("Cancel"),
         tr("Stop generating or rendering. Frames that are done are kept."));
     mCancel->setEnabled(false);
     add(mKeep, QStringLiteral("lampblack.keep_light"), tr("Keep the Light While Drawing"),
-        tr("Once the lamp was used, its light stays on the canvas while you draw"));
+        tr("The light stays on the canvas while you draw with other tools"));
     mKeep->setCheckable(true);
     mKeep->setChecked(true);
     connect(mCancel, &QAction::triggered, this, &LightActions::cancelRequested);

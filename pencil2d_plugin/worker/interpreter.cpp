@@ -73,7 +73,7 @@ UserError notInstalled(const Interpreter& interpreter, const QString& details)
         return {QCoreApplication::translate("lampblack", "The lamp's renderer is not installed."),
                 QCoreApplication::translate("lampblack", "Press Install in the lamp's panel."), details};
     }
-    return {QCoreApplication::translate("lampblack", "Lampblack's worker is not installed."),
+    return {QCoreApplication::translate("lampblack", "The renderer of Lampblack is not installed."),
             QCoreApplication::translate(
                 "lampblack", "Open a terminal in Lampblack's folder and type: make install. Then try again."),
             QStringLiteral("Python: %1 (named by %2)\n%3")
@@ -90,7 +90,7 @@ UserError versionMismatch(const Interpreter& interpreter, const QString& details
                 QCoreApplication::translate("lampblack", "Press Update in the lamp's panel."), details};
     }
     return {
-        QCoreApplication::translate("lampblack", "Lampblack's worker is of another version than its plugin."),
+        QCoreApplication::translate("lampblack", "The renderer is of another version than the plugin."),
         QCoreApplication::translate(
             "lampblack",
             "Update both together: open a terminal in Lampblack's folder and type: make install"),

@@ -133,7 +133,7 @@ void WorkerProcess::launch()
     mFolder = std::make_unique<QTemporaryDir>(ownFolderTemplate());
     if (!mFolder->isValid())
     {
-        giveUp({tr("Lampblack's worker could not be started."),
+        giveUp({tr("The renderer could not be started."),
                 tr("Make room in %1, then try again.").arg(QDir::tempPath()), mFolder->errorString()});
         return;
     }
@@ -252,7 +252,7 @@ void WorkerProcess::onDied(const QString& reason)
     }
     else if (mDeaths.size() >= MaxDeaths)
     {
-        giveUp({tr("Lampblack's worker ended %1 times within a minute.").arg(mDeaths.size()),
+        giveUp({tr("The renderer stopped %1 times within a minute.").arg(mDeaths.size()),
                 tr("Open a terminal and type: %1 -I -m lampblack doctor").arg(mInterpreter.path),
                 reason + QLatin1Char('\n') + stderrTail()});
     }

@@ -224,7 +224,7 @@ quint64 WorkerSession::render(const QString& frames, const QString& output, Qual
     }
     if (!mProcess.isRunning())
     {
-        return refuseJob({tr("Nothing was rendered: Lampblack's worker is not running."),
+        return refuseJob({tr("Nothing was rendered: the renderer is not running."),
                           tr("Start Pencil2D again, then render again."), QString()});
     }
     RenderJob job;

@@ -165,7 +165,7 @@ void WorkerSession::handle(const protocol::Error& error)
     }
     if (error.code == QLatin1String("header_too_large"))
     {
-        Q_EMIT problem({tr("More colours have a material of their own than can be lit at once."),
+        Q_EMIT problem({tr("Too many colours have a material of their own."),
                         tr("Give fewer colours a material of their own."), details});
         return;
     }

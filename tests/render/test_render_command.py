@@ -79,7 +79,7 @@ def test_interrupting_leaves_finished_frames_and_nothing_else(
     assert process.returncode == 128 + number
     assert b"Traceback" not in shown
     if number == signal.SIGINT:
-        assert b"what was finished is kept" in shown
+        assert b"Finished files are kept" in shown
     finished = files(out)
     assert 1 <= len(finished) < 39
     assert all(load_picture(out / name).shape == (96, 96, 4) for name in finished)

@@ -182,7 +182,7 @@ def test_any_flipped_byte_is_an_error_for_people_at_most(tmp_path: Path) -> None
         ("", "no layer with a picture"),
         (paint_layer("body", "none"), "has no hero/layers/none"),
         ("<layer/>" * 1001, "1000 layers"),
-        (paint_layer("body", "l1", x="1e99"), "no sense"),
+        (paint_layer("body", "l1", x="1e99"), "not possible"),
         ('<layer nodetype="grouplayer"><layers>' * 60 + "</layers></layer>" * 60, "deep"),
     ],
 )

@@ -96,5 +96,5 @@ def test_what_cannot_be_written_is_told_before_any_work(
     told = run("render", project, *out, "--preview", tmp_path / "a.mp4")
     assert "apt-get install ffmpeg" in told.err
     assert not unrendered
-    with pytest.raises(LampblackError, match="No frame"):
+    with pytest.raises(LampblackError, match="no frame"):
         save_moving_picture(tmp_path / "a.gif", [], 12)

@@ -81,10 +81,10 @@ def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, source: str) -> N
         ("", 'w="900000" h="2"', "pixels"),
         ("", "", "pixels"),
         ("", 'w="5" h="5"', "no layer with a picture"),
-        ('<layer src="data/r.png" x="1e9"/>', 'w="5" h="5"', "no sense"),
+        ('<layer src="data/r.png" x="1e9"/>', 'w="5" h="5"', "not possible"),
         ('<layer src="data/r.png"/>' * 1001, 'w="5" h="5"', "1000 layers"),
         ("<stack>" * 60 + "</stack>" * 60, 'w="5" h="5"', "deep"),
-        ("<layer", 'w="5" h="5"', "sound XML"),
+        ("<layer", 'w="5" h="5"', "valid XML"),
     ],
 )
 def test_descriptions_that_make_no_sense_are_told(

@@ -21,8 +21,8 @@ BrushBar::BrushBar(QWidget* canvas) : QFrame(canvas)
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(2, 2, 2, 2);
     row->setSpacing(1);
-    addButton("step", tr("Step"), tr("Say what is in front: click a line, or drag where a step is missing"),
-              {});
+    addButton("step", tr("Step"),
+              tr("Correct what is in front: click a line, or drag where a step is missing"), {});
     addButton("bump", tr("Bump"), tr("Drag or click: the surface rises under the brush"), Brush::Bump);
     addButton("dent", tr("Dent"), tr("Drag or click: the surface sinks under the brush"), Brush::Dent);
     addButton("turn", tr("Turn"), tr("Drag: the surface turns to where the stroke goes"), Brush::Turn);

@@ -43,8 +43,7 @@ MaterialsDock::MaterialsDock(SceneDocument& document)
         heading->addWidget(label);
     }
     mEmptyLabel->setObjectName(QStringLiteral("lampblack.materials.empty"));
-    mEmptyLabel->setText(
-        tr("The colours of the drawing appear here once it has been looked at with the Lamp."));
+    mEmptyLabel->setText(tr("Choose the lamp to see the colours of the drawing here."));
     mEmptyLabel->setWordWrap(true);
     mEmptyLabel->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     mEmptyLabel->setMargin(6);

@@ -125,7 +125,7 @@ void SwatchRow::buildMore()
     mLook->setObjectName(QStringLiteral("lampblack.materials.look.") + mColour);
     mLook->setAccessibleName(tr("Look of %1").arg(mColour));
     mLook->setToolTip(
-        tr("Smooth keeps soft light on this colour while the rest has tones; cel gives it tones"));
+        tr("Smooth: soft light on this colour. Cel: flat tones on this colour, whatever the scene has"));
     mLook->addItems({tr("as the scene"), tr("smooth"), tr("cel")});
     ignoreWheelWithoutFocus(mLook);
     auto* row = new QHBoxLayout(mLookRow);
@@ -142,8 +142,9 @@ void SwatchRow::buildMore()
     addValue(mVolume, tr("Below 1 this colour is flatter, above 1 it is rounder"));
     mNearer = new ValueRow(QStringLiteral("lampblack.materials.nearer.") + mColour, tr("Nearer"),
                            {-1, 1, Near, 0, true, 2}, this);
-    addValue(mNearer,
-             tr("Brings this colour towards you, or away below 0: what is in front throws a shadow"));
+    addValue(
+        mNearer,
+        tr("Above 0 this colour comes towards you, below 0 it goes back. What is in front throws a shadow"));
     connect(mLook, qOverload<int>(&QComboBox::activated), this,
             [this](int look)
             {

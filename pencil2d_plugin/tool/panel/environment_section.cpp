@@ -41,7 +41,8 @@ AmbientSection::AmbientSection(SceneDocument& document, QWidget* parent)
     colourRow->addWidget(mColour);
     mStrength = new ValueRow(QStringLiteral("lampblack.panel.ambient"), tr("Strength"),
                              {0, MaxAmbient, 2, 2, false, 2}, this);
-    mStrength->setHint(tr("Light from everywhere. It fills the shadows; 1 alone shows the drawn colours."));
+    mStrength->setHint(tr("Light from all sides. It brightens the shadows. If it is the only light, 1 shows "
+                          "the colours as drawn."));
     body()->addLayout(colourRow);
     body()->addWidget(mStrength);
     connect(mColour, &ColourButton::edited, this,
@@ -77,8 +78,8 @@ SurfaceSection::SurfaceSection(SceneDocument& document, QWidget* parent)
     mRelief->setHint(tr("Above 1 everything is rounder, below 1 flatter."));
     mRoughness = new ValueRow(QStringLiteral("lampblack.panel.roughness"), tr("Roughness"),
                               {0.02, 1, 1, 0, false, 2}, this);
-    mRoughness->setHint(tr("Of glossy colours: 0.02 is a mirror, 1 is satin. (A glossy exponent, the other "
-                           "way round.) Colours with a roughness of their own keep it."));
+    mRoughness->setHint(tr("Width of the highlights on glossy colours: 0.02 is a mirror, 1 is satin. Colours "
+                           "with their own roughness do not change."));
     body()->addWidget(mRelief);
     body()->addWidget(mRoughness);
     connect(mRelief, &ValueRow::edited, this,
@@ -112,7 +113,7 @@ FloorSection::FloorSection(Host& host, SceneDocument& document, QWidget* parent)
     mPitch = new ValueRow(QStringLiteral("lampblack.panel.floor.pitch"), tr("Pitch"),
                           {5, 85, 85, 0, false, 0}, this);
     mPitch->setSuffix(QStringLiteral("°"));
-    mPitch->setHint(tr("Small: the floor is seen from the side. Large: it stands up like a wall."));
+    mPitch->setHint(tr("Small: you see the floor from the side. Large: the floor stands up like a wall."));
     body()->addWidget(mOn);
     body()->addWidget(mPosition);
     body()->addWidget(mPitch);

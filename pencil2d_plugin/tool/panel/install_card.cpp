@@ -95,7 +95,7 @@ InstallCard::InstallCard(const QString& source, QWidget* parent)
             {
                 mInstaller->cancel();
                 mWhat->setText(tr("The renderer is not installed yet."));
-                mHow->setText(tr("Cancelled. What was downloaded is kept: Install goes on from there."));
+                mHow->setText(tr("Cancelled. The downloaded files are kept. Install continues from there."));
             });
     connect(mCopy, &QToolButton::clicked, this, [this] { QApplication::clipboard()->setText(mDetails); });
 }
@@ -128,7 +128,7 @@ void InstallCard::onPlanned(const InstallPlan& plan)
             tr("The renderer is of another version than the lamp, which is %1.").arg(plan.version));
         break;
     case InstallPlan::State::Installed:
-        mWhat->setText(tr("The renderer does not start. It can be installed anew."));
+        mWhat->setText(tr("The renderer does not start. Install it again."));
         break;
     }
     mInstall->setText(plan.state == InstallPlan::State::Other ? tr("Update") : tr("Install"));

@@ -154,9 +154,8 @@ QWidget* LampPanel::viewSwitch()
     add(Show::Lit, QStringLiteral("lit"), tr("Lit"), tr("The drawing in its light"));
     add(Show::Normals, QStringLiteral("normals"), tr("Normals"), tr("Which way the surface faces"));
     add(Show::Relief, QStringLiteral("depth"), tr("Depth"),
-        tr("How near the surface is, and which part is in front: correct it with a click"));
-    add(std::nullopt, QStringLiteral("flat"), tr("Flat"),
-        tr("The drawing as drawn (hold D for a moment's look)"));
+        tr("Depth: brighter is nearer. See which part is in front, and correct it with a click"));
+    add(std::nullopt, QStringLiteral("flat"), tr("Flat"), tr("The drawing without light (or hold D)"));
     setViewMode(Show::Lit);
     connect(mViews, &QButtonGroup::idClicked, this,
             [this](int button) { Q_EMIT viewModeChanged(modeOf(button)); });

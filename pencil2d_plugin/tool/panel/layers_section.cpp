@@ -103,11 +103,10 @@ QWidget* LayersSection::bodyChoice(const QString& layer)
     auto* choice = new QComboBox(mRows);
     choice->setObjectName(QStringLiteral("lampblack.panel.body.") + layer);
     choice->setAccessibleName(tr("Depth of layer %1").arg(layer));
-    choice->setToolTip(tr("How the layer stands on the layers below it.\n"
-                          "Automatic: found from how they overlap.\n"
-                          "In front: round by itself, it throws a shadow on what is below.\n"
-                          "Same body: one round body together with the layer below.\n"
-                          "Painted on: flat on the layer below, such as a pattern."));
+    choice->setToolTip(tr("How this layer is joined to the layers below it.\nAutomatic: Lampblack decides "
+                          "from the drawings.\nIn front: a round body of its own. It throws a shadow on what "
+                          "is below.\nSame body: one round body together with the layer below.\nPainted on: "
+                          "flat on the layer below, such as a pattern."));
     const auto add = [choice](const QString& text, BodyChoice body)
     {
         choice->addItem(text, int(body));

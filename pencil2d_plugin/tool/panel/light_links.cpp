@@ -25,16 +25,15 @@ LightLinks::LightLinks(Host& host, SceneDocument& document, QWidget* parent)
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(3);
     mLitLayers = addChoice("light.layers", tr("Lights layers"),
-                           tr("Only these layers take this light: a lamp for a face, and not for the hills"),
+                           tr("This light lights only these layers: for example the face, but not the hills"),
                            [this](QMenu& menu) { fillLit(menu, layers(), &AreaLight::layers); });
     mLitColours = addChoice("light.colours", tr("Lights colours"),
-                            tr("Only these colours take this light: a glint for the eyes"),
+                            tr("This light lights only these colours: for example the eyes"),
                             [this](QMenu& menu) { fillLit(menu, mColours, &AreaLight::colours); });
-    mPinned =
-        addChoice("light.pin", tr("Moves with"),
-                  tr("The light stays with a place of the drawing, such as a lantern in a hand, or with "
-                     "a whole layer, and follows it through the shot"),
-                  [this](QMenu& menu) { fillPins(menu); });
+    mPinned = addChoice("light.pin", tr("Moves with"),
+                        tr("The light moves with a place of the drawing, such as a lantern in a hand, or "
+                           "with a layer, from frame to frame"),
+                        [this](QMenu& menu) { fillPins(menu); });
     connect(&document, &SceneDocument::sceneChanged, this, &LightLinks::refresh);
     connect(&document, &SceneDocument::selectionChanged, this, &LightLinks::refresh);
     refresh();

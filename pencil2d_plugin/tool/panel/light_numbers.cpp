@@ -76,9 +76,10 @@ QWidget* LightNumbers::kindAndColour()
         mKind->addButton(button, int(kind));
         row->addWidget(button);
     };
-    add(LightKind::Lamp, "lamp", tr("Lamp"), tr("Shines from near, and fades with distance"));
+    add(LightKind::Lamp, "lamp", tr("Lamp"), tr("A light that is near: far from it, the drawing is darker"));
     add(LightKind::Sun, "sun", tr("Sun"),
-        tr("Shines from far: from its place towards the middle of the drawing, on all of it alike"));
+        tr("A light that is far away: it lights the whole drawing equally, from its place towards the "
+           "middle"));
     mColour = new ColourButton(named("colour"), tr("Colour of the light"), box);
     row->addStretch(1);
     row->addWidget(mColour);
@@ -104,11 +105,11 @@ void LightNumbers::addRows()
                   tr("Temperature of the colour, in kelvin: 1900 is a candle, 3000 a lamp, 5500 sunlight, "
                      "10000 a blue sky"));
     mPower = add("power", tr("Power"), {0, MaxPower, 10, 4, false, 2},
-                 tr("1 lights what faces it, from the usual height, to its drawn colour."));
+                 tr("Brightness. With 1, at the default height, you see the colours as drawn."));
     mSize = add("size", tr("Size"), sizeScale(unit), tr("Diameter. A large light makes soft shadows."));
     mHeight = add("height", tr("Height"), heightScale(unit),
-                  tr("Above the paper; below 0 the light stands behind it and lights only edges that turn "
-                     "away. For a line of light, use the rim of the look."));
+                  tr("Height above the paper. Below 0 the light is behind the paper, and lights only edges "
+                     "that turn away from you. For a line of light, use the rim of the look."));
     mKeys = new KeysRow(named("keys"), mHost, this);
     rows->addWidget(mKeys);
     rows->addWidget(more());
@@ -122,7 +123,7 @@ QWidget* LightNumbers::more()
     section->body()->addWidget(mPlace);
     mShadow = new QCheckBox(tr("Casts shadows"), this);
     mShadow->setObjectName(named("light.shadow"));
-    mShadow->setToolTip(tr("Without shadows a light fills: it brightens, and nothing stands in its way"));
+    mShadow->setToolTip(tr("Without shadows: a fill light, which shines through the character"));
     section->body()->addWidget(mShadow);
     section->body()->addWidget(new LightLinks(mHost, mDocument, this));
     return section;

@@ -45,10 +45,9 @@ LightRow::LightRow(int number, QWidget* parent) : QWidget(parent), mNumber(numbe
     mName->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     mName->installEventFilter(this);
     mSolo = smallButton(name + QStringLiteral(".solo"), QStringLiteral("S"),
-                        tr("Solo: only this light shines, to judge it alone"), this);
+                        tr("Solo: only this light shines"), this);
     mSolo->setCheckable(true);
-    mEye =
-        smallButton(name + QStringLiteral(".on"), QString(), tr("On or off, without losing the light"), this);
+    mEye = smallButton(name + QStringLiteral(".on"), QString(), tr("Switch this light on or off"), this);
     mEye->setCheckable(true);
     mEdit->setObjectName(name + QStringLiteral(".name"));
     mEdit->setMaxLength(MaxName);

@@ -59,8 +59,7 @@ QVector<LookPicture> lookPictures()
         {tr("Smooth"), tr("Smooth: light fades over round surfaces, as in a painting")},
         {tr("Soft"), tr("Soft cel: light and shade with a soft edge")},
         {tr("Hard"), tr("Hard cel: light and shade with a clean edge, as inked by hand")},
-        {tr("Rim"), tr("Two-tone + rim: light, deep shade, and a bright edge that parts the figure from the "
-                       "background")}};
+        {tr("Rim"), tr("Two-tone + rim: light, deep shade, and a bright edge around the character")}};
     QVector<LookPicture> choices;
     const QVector<Style> styles = presetStyles();
     for (int place = 0; place < styles.size() && place < words.size(); ++place)

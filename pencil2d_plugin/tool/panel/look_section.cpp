@@ -37,7 +37,7 @@ LookSection::LookSection(SceneDocument& document, QWidget* parent)
     {
         auto* row = new ValueRow(named("tone.") + QString::number(tone + 1), tr("Edge %1").arg(tone + 1),
                                  {0, 1, 1, 0, false, 2}, this);
-        row->setHint(tr("How much light the next tone begins with: lower makes the shade smaller"));
+        row->setHint(tr("Where the next darker tone begins: lower makes the shade smaller"));
         connect(row, &ValueRow::edited, this,
                 [this, tone](double value, int gesture)
                 {
@@ -121,19 +121,20 @@ void LookSection::addMore()
             [this](const QColor& colour, int gesture)
             { change(tr("Change Shade"), gesture, [&](Scene& scene) { scene.look.shadeColour = colour; }); });
     rows.addWidget(lookRow("shade", tr("Shade"),
-                           tr("How far the shade takes its colour: 0 leaves it to the light"),
+                           tr("How strong the colour of the shade is. 0: only the light makes the shade"),
                            &Look::shadeStrength));
     addCastShadow(rows);
     rows.addWidget(lookRow("highlight", tr("Highlight"),
-                           tr("With tones: how bright gloss must be to show. Lower makes larger highlights"),
+                           tr("With tones: where highlights begin. Lower makes larger highlights"),
                            &Look::highlight));
     rows.addWidget(lookRow("contact", tr("Contact"),
                            tr("Darkens where surfaces touch, such as an arm on a body"), &Look::contact));
-    rows.addWidget(lookRow("ink", tr("Ink light"),
-                           tr("How much the line takes light: darker in shade, coloured where it is lit"),
-                           &Look::inkLight));
     rows.addWidget(
-        lookRow("glow", tr("Glow"), tr("Bloom around colours that shine by themselves"), &Look::glow));
+        lookRow("ink", tr("Ink light"),
+                tr("How much the light changes your line: darker in shade, coloured in light. 0: as drawn"),
+                &Look::inkLight));
+    rows.addWidget(lookRow("glow", tr("Glow"),
+                           tr("Glow around colours that shine by themselves, such as a flame"), &Look::glow));
     addRim(rows);
     body()->addWidget(more);
 }
@@ -142,11 +143,10 @@ void LookSection::addCastShadow(QVBoxLayout& rows)
 {
     auto* colour = new ColourButton(named("cast_colour"), tr("Colour of cast shadows"), this);
     QWidget* head = colourRow(colour, tr("Cast shadow"));
-    ValueRow* strength =
-        lookRow("cast", tr("Strength"),
-                tr("With tones: how far the shadow of an arm on the body takes its own colour, so that it is "
-                   "deeper than the side in shade. 0 leaves it as the shade"),
-                &Look::castStrength);
+    ValueRow* strength = lookRow("cast", tr("Strength"),
+                                 tr("With tones: how strong the colour of cast shadows is, such as the "
+                                    "shadow of an arm on the body. 0: as the shade"),
+                                 &Look::castStrength);
     head->setToolTip(strength->toolTip());
     rows.addWidget(head);
     rows.addWidget(strength);
@@ -168,8 +168,7 @@ void LookSection::addRim(QVBoxLayout& rows)
 {
     mRim = new QCheckBox(tr("Rim"), this);
     mRim->setObjectName(named("rim_on"));
-    mRim->setToolTip(tr("A band of light along the figure's edge, whatever its outline: it parts the figure "
-                        "from the background"));
+    mRim->setToolTip(tr("A line of light along the edges of the character, all around or on one side"));
     mRimColour = new ColourButton(named("rim_colour"), tr("Colour of the rim"), this);
     auto* head = new QWidget(this);
     auto* row = new QHBoxLayout(head);
@@ -178,13 +177,14 @@ void LookSection::addRim(QVBoxLayout& rows)
     row->addStretch(1);
     row->addWidget(mRimColour);
     rows.addWidget(head);
-    rows.addWidget(rimRow("rim_width", tr("Width"), tr("Of the band, in pixels of the canvas"),
+    rows.addWidget(rimRow("rim_width", tr("Width"), tr("Width of the rim, in pixels of the canvas"),
                           {0.25, 200, 40, 2, false, 1}, &Rim::width));
-    rows.addWidget(rimRow("rim_strength", tr("Strength"), tr("How far the band takes its colour"),
+    rows.addWidget(rimRow("rim_strength", tr("Strength"), tr("How strong the colour of the rim is"),
                           {0, 1, 1, 0, false, 2}, &Rim::strength));
-    rows.addWidget(rimRow("rim_away", tr("One side"),
-                          tr("0: all around. 1: only on the side away from the strongest light"),
-                          {0, 1, 1, 0, false, 2}, &Rim::away));
+    rows.addWidget(
+        rimRow("rim_away", tr("One side"),
+               tr("Where the rim is. 0: all around. 1: only on the side away from the strongest light"),
+               {0, 1, 1, 0, false, 2}, &Rim::away));
     connect(mRim, &QCheckBox::clicked, this,
             [this](bool on)
             {

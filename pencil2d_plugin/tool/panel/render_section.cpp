@@ -42,13 +42,13 @@ QVector<Kind> apartKinds()
     {
         return RenderSection::tr(text);
     };
-    return {
-        {ApartKind::None, tr("One"), tr("The lit frames, in one layer")},
-        {ApartKind::Pencil2d, tr("Apart"), tr("Layers of this project, in place of the layer \"Lit\"")},
-        {ApartKind::Ora, tr("+ ORA"), tr("Beside each frame an OpenRaster file, for Krita and MyPaint")},
-        {ApartKind::Png, tr("+ PNG"), tr("A folder of PNG files for each layer, to be blended elsewhere")},
-        {ApartKind::Exr, tr("EXR"),
-         tr("Files with all layers, for Nuke and Blender; the project stays as it is")}};
+    return {{ApartKind::None, tr("One"), tr("The lit frames, in one layer")},
+            {ApartKind::Pencil2d, tr("Apart"), tr("Layers of this project, in place of the layer \"Lit\"")},
+            {ApartKind::Ora, tr("+ ORA"), tr("Beside each frame an OpenRaster file, for Krita and MyPaint")},
+            {ApartKind::Png, tr("+ PNG"),
+             tr("A folder of PNG files for each layer, to blend in another program")},
+            {ApartKind::Exr, tr("EXR"),
+             tr("Files with all layers, for Nuke and Blender; the project stays as it is")}};
 }
 
 } // namespace
@@ -66,17 +66,16 @@ RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction
     mRange->addItems({tr("All"), tr("Loop"), tr("Current")});
     ignoreWheelWithoutFocus(mRange);
     mHide->setObjectName(QStringLiteral("lampblack.panel.hide"));
-    mHide->setToolTip(tr("Once every frame is in the layer \"Lit\", hide the layers that it was lit from."));
+    mHide->setToolTip(tr("When all frames are in the layer \"Lit\", hide the drawings that were lit."));
     mQuality->setObjectName(QStringLiteral("lampblack.panel.quality"));
     mQuality->setAccessibleName(tr("Quality of rendered frames"));
-    mQuality->setToolTip(tr("Of rendered frames. Higher takes longer and shows more."));
+    mQuality->setToolTip(tr("Quality of rendered frames. Higher: less noise and more detail, but slower."));
     mQuality->addItems({tr("Low"), tr("Medium"), tr("Final")});
     ignoreWheelWithoutFocus(mQuality);
     mApart->setObjectName(QStringLiteral("lampblack.panel.apart"));
     mApart->setAccessibleName(tr("Layers for compositing"));
-    mApart->setToolTip(
-        tr("Shadow, shade, light, highlight, rim and glow apart, for compositing. Laid over one "
-           "another they are the lit frame."));
+    mApart->setToolTip(tr("Separate layers for compositing: shadow, shade, light, highlight, rim and glow. "
+                          "Together they are the lit frame."));
     const QVector<Kind> kinds = apartKinds();
     for (const Kind& kind : kinds)
     {
@@ -87,7 +86,7 @@ RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction
     mOutdated->setObjectName(QStringLiteral("lampblack.panel.outdated"));
     mOutdated->setWordWrap(true);
     mRenderChanged->setObjectName(QStringLiteral("lampblack.panel.render_changed"));
-    mRenderChanged->setToolTip(tr("Light again only the frames whose drawing or light has changed since."));
+    mRenderChanged->setToolTip(tr("Light only the frames whose drawing or light has changed."));
     mRenderChanged->setAutoDefault(false);
     mRenderChanged->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     connect(&render, &QAction::changed, mRenderChanged,

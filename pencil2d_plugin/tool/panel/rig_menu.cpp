@@ -108,12 +108,14 @@ RigMenu::RigMenu(Host& host, SceneDocument& document, QWidget* parent)
     setStyle(large);
     addPresets();
     addSeparator();
-    addEntry("copy", tr("Copy These Lights"), tr("To paste them in another project"), [this] { copy(); });
-    QAction* paste = addEntry("paste", tr("Paste Lights"), tr("Those that were copied, in place of these"),
+    addEntry("copy", tr("Copy These Lights"), tr("Copy these lights, to paste them in another project"),
+             [this] { copy(); });
+    QAction* paste = addEntry("paste", tr("Paste Lights"), tr("Replace these lights by the copied lights"),
                               [this] { this->paste(); });
-    addEntry("save", tr("Save These Lights…"), tr("Into a file, to use them in other shots"),
+    addEntry("save", tr("Save These Lights…"), tr("Save these lights in a file, to use them in other shots"),
              [this] { save(); });
-    addEntry("load", tr("Load Lights…"), tr("From a file, in place of these"), [this] { load(); });
+    addEntry("load", tr("Load Lights…"), tr("Replace these lights by lights from a file"),
+             [this] { load(); });
     connect(this, &QMenu::aboutToShow, this,
             [paste] { paste->setEnabled(QApplication::clipboard()->mimeData()->hasFormat(MimeType)); });
 }

@@ -144,7 +144,7 @@ private Q_SLOTS:
         QCOMPARE(gaveUp.count(), 0);
         QTRY_COMPARE(gaveUp.count(), 1);
         const auto error = gaveUp[0][0].value<UserError>();
-        QCOMPARE(error.what, QStringLiteral("Lampblack's worker is not installed."));
+        QCOMPARE(error.what, QStringLiteral("The renderer of Lampblack is not installed."));
         QVERIFY(error.remedy.contains(QStringLiteral("make install")));
     }
 
@@ -160,7 +160,7 @@ private Q_SLOTS:
         process.start();
         QTRY_COMPARE(gaveUp.count(), 1);
         QCOMPARE(gaveUp[0][0].value<UserError>().what,
-                 QStringLiteral("Lampblack's worker is not installed."));
+                 QStringLiteral("The renderer of Lampblack is not installed."));
     }
 
     void anotherVersionIsNotConnectedTo()

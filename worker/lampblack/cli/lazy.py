@@ -69,7 +69,7 @@ def _interruptible(command: Callable[..., None]) -> Callable[..., None]:
         try:
             command(*arguments, **options)
         except KeyboardInterrupt:
-            say("Interrupted; what was finished is kept.")
+            say("Interrupted. Finished files are kept.")
             raise typer.Exit(EXIT_INTERRUPTED) from None
 
     return call

@@ -213,6 +213,6 @@ def _layer_body(text: str) -> tuple[str, BodyChoice]:
         if layer and body == named:
             return layer, body
     raise LampblackError(
-        f"{text!r} does not say what surface a layer gets.",
+        f"{text!r} does not name the surface of a layer.",
         f"Write it as LAYER=BODY, where BODY is {', '.join(get_args(BodyChoice))}.",
     )

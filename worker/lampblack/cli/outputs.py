@@ -12,7 +12,9 @@ def keep_inputs(output: Path, inputs: Iterable[str | Path | None]) -> None:
     """Refuse an output that would replace one of the inputs."""
     given = [Path(path) for path in inputs if path is not None]
     if output.exists() and any(path.exists() and path.samefile(output) for path in given):
-        raise LampblackError(f"{output} is one of the inputs; it would be lost.", "Choose another.")
+        raise LampblackError(
+            f"{output} is one of the inputs, and would be overwritten.", "Choose another."
+        )
 
 
 def check_suffix(path: Path, *suffixes: str) -> None:

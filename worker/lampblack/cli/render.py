@@ -54,7 +54,7 @@ def render(
     """Light drawings, or the frames of a project.
 
     A frame whose file is up to date is not rendered again: after an interruption, run the same
-    command to go on. Exit code 1: a frame failed; the others are finished. Exit code 3: a blank
+    command to continue. Exit code 1: a frame failed; the others are finished. Exit code 3: a blank
     frame was passed through unlit.
 
     Example: lampblack render walk/ -o lit/ --light 250,150,400 --quality final
@@ -111,7 +111,7 @@ def _summarise(job: ResolvedJob, outcome: Outcome) -> None:
     )
     if len(outcome.devices) > 1:
         counts = ", ".join(f"{number} on {device}" for device, number in outcome.devices.items())
-        say(f"Frames of several devices: {counts}. To have one: --device cpu, or another of them.")
+        say(f"Frames of several devices: {counts}. To use only one: --device cpu, or another.")
     if outcome.failed:
         names = ", ".join(frame.name for frame, _ in outcome.failed)
         say(f"Failed: {names}", "bold red")

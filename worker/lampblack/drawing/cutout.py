@@ -129,7 +129,10 @@ def _from_paper(picture: Colours) -> Cutout:
     difference = _difference(picture, paper)
     drawn = without_specks(difference > tolerance, _DUST)
     if not drawn.any():
-        raise NothingDrawnError("The paper is blank.", "Choose a picture with a drawing on it.")
+        raise NothingDrawnError(
+            "The picture is blank: nothing is drawn on it.",
+            "Choose a picture with a drawing on it.",
+        )
     line_art = is_line_art(drawn)
     mask = _enclosed(drawn) if line_art else ~outside_of(drawn, line_art=False)
     colour, coverage = _lift(picture, paper, ~mask, difference, tolerance)

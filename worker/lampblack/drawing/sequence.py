@@ -92,7 +92,7 @@ def parse_frames(text: str) -> list[int]:
         step = int(match[3] or 1)
         if last < first or step < 1:
             raise DrawingError(
-                f"The frames {part.strip()!r} run backwards or have no step.",
+                f"The frames {part.strip()!r} go backwards, or their step is 0.",
                 "Write the lower number first and a step of at least 1.",
             )
         span = range(first, last + 1, step)

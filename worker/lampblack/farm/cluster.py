@@ -105,7 +105,7 @@ def check_address(address: str) -> None:
     if parts.scheme != "tls" and not (parts.scheme == "tcp" and loopback):
         raise LampblackError(
             f"{address} is not reached over TLS.",
-            "Name it like tls://scheduler:8786; a cluster without TLS runs anyone's code.",
+            "Name it like tls://scheduler:8786; without TLS, anybody can run code on the cluster.",
         )
 
 

@@ -186,7 +186,7 @@ def _check(template: dict[str, Any]) -> None:
         decode_job_template(template=template)
     except DecodeValidationError as error:
         raise LampblackError(
-            "These settings make no valid job template.",
+            "No valid job template can be made from these settings.",
             "Choose shorter names, or fewer frames.",
             str(error),
         ) from error

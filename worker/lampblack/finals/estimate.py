@@ -80,7 +80,7 @@ def estimate(
         if outcome.failed and not outcome.done:
             raise outcome.failed[0][1]
         if not outcome.done:
-            raise LampblackError("There is no such frame.", "See which ones the input has.")
+            raise LampblackError("This frame does not exist.", "See which ones the input has.")
         disk = sum(path.stat().st_size for path in Path(folder, "lit").rglob("*") if path.is_file())
     first, further, repeated = clock.means()
     size = round(disk / len(outcome.done) * len(job.frames))

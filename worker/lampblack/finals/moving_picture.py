@@ -51,7 +51,7 @@ def save_moving_picture(path: Path, pictures: Iterable[Picture], fps: float) -> 
     frames = _prepared(pictures)
     first = next(frames, None)
     if first is None:
-        raise LampblackError("No frame is there to be shown.", "Leave out --preview.")
+        raise LampblackError("There is no frame to show.", "Leave out --preview.")
     if path.suffix.lower() in _ENCODERS:
         _encode(path, first, frames, fps)
         return

@@ -40,7 +40,7 @@ def first_frame(resolved: ResolvedShot, pipeline: Pipeline) -> OneFrame:
         LampblackError: there is no frame, or its drawing cannot be used.
     """
     if not resolved.frames:
-        raise LampblackError("There is no such frame.", "See which ones the input has.")
+        raise LampblackError("This frame does not exist.", "See which ones the input has.")
     frame = resolved.frames[0]
     neighbour_loader = NeighbourLoader(
         resolved.shot, pipeline, resolved.reach, choices=resolved.overrides.layer_bodies

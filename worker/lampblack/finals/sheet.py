@@ -36,7 +36,7 @@ def cells_of(text: str) -> tuple[int, int]:
     columns, rows = (int(match[1]), int(match[2])) if match else (0, 0)
     if not 0 < columns * rows <= MAX_CELLS:
         raise LampblackError(
-            f"{text[:40]!r} does not say how many cells a sheet has.",
+            f"{text[:40]!r} is not a number of cells.",
             f"Write columns and rows, such as 8x4; {MAX_CELLS} cells are the most.",
         )
     return columns, rows
@@ -129,7 +129,7 @@ def save_sheet(path: Path, pictures: Sequence[Picture | None], columns: int = 0)
     """
     sizes = [picture.shape[:2] for picture in pictures if picture is not None]
     if not sizes:
-        raise LampblackError("No frame is there to be put on a sheet.", "Leave out --sprite-sheet.")
+        raise LampblackError("There is no frame for the sheet.", "Leave out --sprite-sheet.")
     height, width = (max(size[axis] for size in sizes) for axis in (0, 1))
     columns = columns or math.ceil(math.sqrt(len(pictures) * height / width))
     columns = min(columns, len(pictures))

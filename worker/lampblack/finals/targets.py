@@ -55,7 +55,7 @@ class Targets:
                 f"Name a folder, or files that end in {' or '.join(f'.{kind}' for kind in kinds)}.",
             )
         if len(number) > 1:
-            raise LampblackError(f"{output} has two places for the number.", "Leave one.")
+            raise LampblackError(f"{output} has two places for the frame number.", "Leave one.")
         if named and kind is not None and kind != suffix:
             raise LampblackError(
                 f"{output} ends in .{suffix}, but --format says {kind}.", "Leave one of them out."
@@ -64,7 +64,7 @@ class Targets:
         self.kind = kind or (suffix if named else usual)
         if apart != "none" and (apart == "exr") != (self.kind == "exr"):
             raise LampblackError(
-                f"--apart {apart} does not go with frames in {self.kind.upper()}.",
+                f"--apart {apart} cannot be used with frames in {self.kind.upper()}.",
                 "Write PNG, or take EXR apart with --apart exr.",
             )
         self.apart = apart
@@ -137,14 +137,15 @@ class Targets:
         beside = {source.resolve() for source in sources if source.resolve().parent == folder}
         if not self._named and any(path.suffix.lower() in PICTURE_SUFFIXES for path in beside):
             raise LampblackError(
-                f"{self.folder} holds the drawings themselves; they would be replaced.",
+                f"{self.folder} contains the drawings, which would be overwritten.",
                 "Choose another output folder.",
             )
         inputs = {source.resolve() for source in sources}
         for path in (path for frame in frames for path in self.paths(frame)):
             if path.resolve() in inputs:
                 raise LampblackError(
-                    f"{path} is one of the inputs; it would be lost.", "Choose another output."
+                    f"{path} is one of the inputs, and would be overwritten.",
+                    "Choose another output.",
                 )
 
     def are_whole(self, frame: ShotFrame) -> bool:

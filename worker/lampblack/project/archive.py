@@ -90,7 +90,7 @@ class Zipped:
         self.path = path
         self._description = description
         cut_short = ProjectError(
-            f"{path} cannot be opened: it was cut short, or it is no project.",
+            f"{path} cannot be opened: it is not complete, or it is not a project.",
             "Restore it from a backup. A program that repairs zip files may save some of it.",
         )
         with understood(cut_short):
@@ -150,7 +150,7 @@ class Zipped:
         with understood(damaged):
             if self._zip.getinfo(name).compress_type not in PACKINGS:
                 raise ProjectError(
-                    f"{self.path.name} is packed in a way that is not read.",
+                    f"{self.path.name} is compressed in a way that Lampblack cannot read.",
                     "Unpack it, and pack it again as an ordinary zip file (method: deflate).",
                 )
             with self._zip.open(name) as file:
@@ -202,7 +202,7 @@ def _check_name(name: str) -> None:
 def _strays(name: str) -> ProjectError:
     return ProjectError(
         "The project names a file outside its own folder; nothing was read from there.",
-        "Do not trust this project: ask whoever made it.",
+        "Do not trust this project. Ask the person who made it.",
         repr(name[:200]),
     )
 

@@ -28,7 +28,7 @@ def sound_xml(xml: bytes, name: str) -> Element:
         root: Element = fromstring(xml, forbid_entities=True)
     except (ParseError, DefusedXmlException, ValueError, LookupError, RecursionError) as error:
         raise ProjectError(
-            f"The description in {name} is not sound XML.",
+            f"The description in {name} is not valid XML.",
             AGAIN,
             str(error),
         ) from error
@@ -87,6 +87,6 @@ def number(element: Element | None, name: str, default: float) -> float:
 
 def _nonsense(name: str, text: str) -> ProjectError:
     return ProjectError(
-        f"The project says {name} = {text[:40]!r}, which makes no sense.",
+        f"The project says {name} = {text[:40]!r}, which is not possible.",
         AGAIN,
     )

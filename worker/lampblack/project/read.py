@@ -70,7 +70,7 @@ def parse(xml: bytes, name: str) -> Project:
     described = [element for top in root.iter("object") for element in top.findall("layer")]
     if root.tag not in ("document", "object") or not described:
         raise ProjectError(
-            f"{name} is no project with layers.", "Open it in Pencil2D, and save it again."
+            f"{name} is not a project with layers.", "Open it in Pencil2D, and save it again."
         )
     if len(described) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.", "Merge some of them.")

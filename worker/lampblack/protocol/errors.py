@@ -94,15 +94,17 @@ CATALOGUE: dict[ErrorCode, Entry] = {
         decoding=True,
     ),
     ErrorCode.BAD_JSON: Entry(
-        "The header is not JSON as the specification narrows it.", _REPORT, decoding=True
+        "The header is not JSON in the form that the specification asks for.",
+        _REPORT,
+        decoding=True,
     ),
     ErrorCode.TOO_DEEP: Entry(
         "The header nests objects and arrays more than 32 deep.",
-        "Take what nests so deep out of the scene.",
+        "Remove the part of the scene that is nested so deep.",
         decoding=True,
     ),
     ErrorCode.BAD_NUMBER: Entry(
-        "A number is 2^53 or more in magnitude, or too near zero to be held.",
+        "A number is too large (2^53 or more), or too close to zero.",
         "Correct the number.",
         decoding=True,
     ),
@@ -118,7 +120,7 @@ CATALOGUE: dict[ErrorCode, Entry] = {
         decoding=True,
     ),
     ErrorCode.BAD_VALUE: Entry(
-        "Each field is sound, but together or in meaning they are not.",
+        "Each field is valid, but they do not fit together.",
         "Correct the value that the details name.",
         decoding=True,
     ),
@@ -150,7 +152,7 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ),
     ErrorCode.NOT_GREETED: Entry("A message came before hello.", _REPORT),
     ErrorCode.TOO_MANY_CLIENTS: Entry(
-        "The worker serves as many clients as it can.",
+        "The worker cannot serve more programs.",
         "Close a drawing program that uses this worker.",
         fatal=True,
     ),
@@ -160,16 +162,16 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ErrorCode.STALE_REQUEST: Entry(
         "The request's number is not above the last one; it was ignored.", _REPORT
     ),
-    ErrorCode.NO_SCENE: Entry("Something was to be lit before a scene was set.", "Set a light."),
+    ErrorCode.NO_SCENE: Entry("There is no scene yet, so nothing can be lit.", "Set a light."),
     ErrorCode.UNKNOWN_FRAME: Entry(
         "No drawing was announced for that frame.", "Draw something in it."
     ),
     ErrorCode.TOO_MANY_FRAMES: Entry(
-        "The worker holds as many drawings as its memory allows.",
+        "The worker has no memory for more drawings.",
         "Work on a shorter range, or on smaller drawings.",
     ),
     ErrorCode.TOO_MANY_JOBS: Entry(
-        "As many render jobs wait as the worker keeps.", "Wait for one to end, or cancel one."
+        "Too many render jobs are waiting.", "Wait for one to end, or cancel one."
     ),
     ErrorCode.DRAWING_UNUSABLE: Entry(
         "The drawing of a frame cannot be lit.", "Do what the message says."
@@ -177,26 +179,24 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ErrorCode.NOTHING_DRAWN: Entry(
         "The frame is blank: there is no character to light.", "Draw one."
     ),
-    ErrorCode.DRAWING_WARNING: Entry(
-        "The frame was lit, but there is something to know about it.", "Read the message."
-    ),
+    ErrorCode.DRAWING_WARNING: Entry("The frame was lit, with a warning.", "Read the message."),
     ErrorCode.RENDER_RESTARTED: Entry(
-        "The renderer went away and was started again; nothing is lost.", "Go on working."
+        "The renderer stopped and was started again. Nothing is lost.", "Go on working."
     ),
     ErrorCode.RENDER_FAILED: Entry(
-        "The renderer failed and could not be brought back for this frame.",
+        "The renderer failed on this frame, also after a new start.",
         "Simplify the scene or lower the quality; copy the details into a report.",
     ),
     ErrorCode.OUTPUT_FAILED: Entry(
-        "A finished frame could not be written; those before it are kept.",
-        "Make room or choose another folder, then render again and keep what is finished.",
+        "A finished frame could not be written. The frames before it are kept.",
+        "Free some space or choose another folder. Then render again: finished frames are kept.",
     ),
     ErrorCode.OUT_OF_MEMORY: Entry(
         "There was not enough memory for the request.",
         "Close other programs, or use smaller drawings.",
     ),
     ErrorCode.INTERNAL: Entry(
-        "The worker came upon a fault of its own.", "Copy the details into a report."
+        "The worker has an error of its own.", "Copy the details into a report."
     ),
 }
 

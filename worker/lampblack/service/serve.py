@@ -59,7 +59,9 @@ def _watch(pid: int) -> int:
         return os.pidfd_open(pid)
     except OSError as error:
         raise LampblackError(
-            f"There is no process {pid} to serve.", "Name the drawing program's own.", str(error)
+            f"There is no process {pid} to serve.",
+            "Give the process number of the drawing program.",
+            str(error),
         ) from error
 
 

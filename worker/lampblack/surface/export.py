@@ -31,7 +31,7 @@ def save_mesh(relief: Relief, path: Path | str) -> None:
     wrong = check_relief(relief)
     if wrong:
         raise LampblackError(
-            "The relief is not a sound mesh, so it was not written.",
+            "The mesh of the relief has errors, so it was not written.",
             "Check the drawing, then try again.",
             " ".join(wrong),
         )

@@ -48,7 +48,7 @@ def build(
     """Draw models from many sides.
 
     Each drawing comes with its exact normals, depth and occlusions. After an interruption, run
-    the same command to go on.
+    the same command to continue.
 
     Example: lampblack dataset build --models meshes/ -o dataset/ --split train
     """

@@ -94,7 +94,7 @@ def train(
 ) -> None:
     """Train a normal network.
 
-    After an interruption, run the same command to go on. The output folder holds
+    After an interruption, run the same command to continue. The output folder holds
     network.safetensors, ready to use; curve.png; examples.png (drawing, truth, prediction); and
     log.jsonl.
 
