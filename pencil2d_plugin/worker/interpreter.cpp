@@ -89,12 +89,11 @@ UserError versionMismatch(const Interpreter& interpreter, const QString& details
                                             "The lamp's renderer is of another version than the lamp."),
                 QCoreApplication::translate("lampblack", "Press Update in the lamp's panel."), details};
     }
-    return {
-        QCoreApplication::translate("lampblack", "The renderer is of another version than the plugin."),
-        QCoreApplication::translate(
-            "lampblack",
-            "Update both together: open a terminal in Lampblack's folder and type: make install"),
-        details};
+    return {QCoreApplication::translate("lampblack", "The renderer is of another version than the plugin."),
+            QCoreApplication::translate(
+                "lampblack",
+                "Update both together: open a terminal in Lampblack's folder and type: make install"),
+            details};
 }
 
 } // namespace lampblack

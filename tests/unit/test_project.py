@@ -377,7 +377,7 @@ def test_files_that_are_no_projects_are_told(tmp_path: Path) -> None:
         read_project(nested)
     assert "at the top" in told.value.remedy
     for path in (tmp_path / "none.pclx", tmp_path):
-        with pytest.raises(ProjectError, match="(no|not a) project"):
+        with pytest.raises(ProjectError, match=r"(no|not a) project"):
             read_project(path)
 
 

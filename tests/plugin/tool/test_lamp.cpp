@@ -196,8 +196,8 @@ private Q_SLOTS:
         auto* retry = card->findChild<QToolButton*>(QStringLiteral("lampblack.panel.problem.retry"));
         Q_EMIT worker.problem({QStringLiteral("It broke."), QString(), QString()});
         QVERIFY(!retry->isVisibleTo(card));
-        Q_EMIT worker.problem({QStringLiteral("The renderer of Lampblack is not installed."), QString(), QString(),
-                               UserError::Kind::NoWorker});
+        Q_EMIT worker.problem({QStringLiteral("The renderer of Lampblack is not installed."), QString(),
+                               QString(), UserError::Kind::NoWorker});
         const int started = worker.mStarted;
         QVERIFY(retry->isVisibleTo(card));
         retry->click();
