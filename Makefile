@@ -3,7 +3,7 @@
 # make docs: build the site of the documentation. make lock: renew the versions of requirements/.
 # make test-newest: check everything with the newest versions instead.
 .PHONY: dist dist-trixie demo pencil2d install uninstall environment lock plugin schema format tidy clean \
-    check check-python check-types check-cpp check-docs docs build-dev build-asan \
+    check check-python check-types check-cpp check-docs docs pictures build-dev build-asan \
     test test-environment test-cpp test-asan test-python test-newest test-slow test-chaos \
     test-window test-trixie test-sid
 
@@ -131,6 +131,10 @@ plugin:
 # The site of the documentation, in build/site/. A dead link is an error.
 docs:
 	scripts/site.sh
+
+# The pictures of the documentation; PICTURES="depth.jpg ..." for some. scripts/pictures.py says how each is made.
+pictures: test-environment
+	$(BIN)/python scripts/pictures.py $(PICTURES)
 
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache

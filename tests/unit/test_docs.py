@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 from pathlib import Path
 
 import pytest
@@ -51,3 +52,10 @@ def test_every_picture_is_shown_somewhere() -> None:
         for link in re.findall(r"!\[[^]]*\]\(([^)\s]+)\)", page.read_text(encoding="utf-8"))
     }
     assert {*(ROOT / "docs" / "images").iterdir()} - shown == set()
+
+
+def test_it_is_known_how_every_picture_is_made() -> None:
+    pictures = runpy.run_path(str(ROOT / "scripts" / "pictures.py"))
+    made = [name for recipe in pictures["RECIPES"] for name in recipe.names]
+    told = [*made, *pictures["BY_HAND"]]
+    assert sorted(told) == sorted(path.name for path in (ROOT / "docs" / "images").iterdir())

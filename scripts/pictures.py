@@ -1,0 +1,205 @@
+"""Make the pictures of the documentation anew: the one place that says how each is made.
+
+    python scripts/pictures.py                    # all whose command is known (make pictures)
+    python scripts/pictures.py depth.jpg          # only this one, and those that come with it
+    python scripts/pictures.py --list             # how each picture is made
+
+Some need what is not part of the repository: DRAWINGS names a folder with kid.png, dino.png and
+cat.png (see docs/licences.md), MODELS one with meshes (see docs/research/dataset.md).
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from PIL import Image
+
+from lampblack.atomic import atomic_file
+
+ROOT = Path(__file__).parents[1]
+IMAGES = ROOT / "docs" / "images"
+STILL, SCENE = ROOT / "examples" / "character.png", ROOT / "examples" / "character.scene.json"
+LOOKS = ("smooth", "soft-cel", "hard-cel", "two-tone-rim")
+RIGS = {"key": "#f4efe6", "sunset": "#f4cba7", "moon": "#3f4a80"}
+"""Each rig with the paper that its pictures lie on."""
+OTHERS = ("kid", "dino", "cat")
+
+
+def lampblack(*words: object) -> None:
+    """Run a command of ``lampblack``."""
+    run(sys.executable, "-m", "lampblack", *words)
+
+
+def run(*words: object) -> None:
+    """Run a program in the root of the checkout; if it fails, so do we."""
+    subprocess.run([str(word) for word in words], cwd=ROOT, check=True)
+
+
+def opened(path: Path, paper: str = "#ffffff", side: int = 600) -> Image.Image:
+    """A picture on ``paper``, its longer side ``side`` pixels."""
+    picture = Image.open(path).convert("RGBA")
+    ground = Image.new("RGBA", picture.size, paper)
+    ground.alpha_composite(picture)
+    ground.thumbnail((side, side), Image.Resampling.LANCZOS)
+    return ground.convert("RGB")
+
+
+def save(name: str, rows: Sequence[Sequence[Image.Image]]) -> None:
+    """Write pictures of one size as a table."""
+    width, height = rows[0][0].size
+    table = Image.new("RGB", (width * len(rows[0]), height * len(rows)))
+    for y, row in enumerate(rows):
+        for x, picture in enumerate(row):
+            table.paste(picture, (x * width, y * height))
+    with atomic_file(IMAGES / name) as file:
+        table.save(file, "PNG" if name.endswith(".png") else "JPEG", quality=88, optimize=True)
+
+
+def stills(work: Path) -> None:
+    """The example as drawn, its depth, and lit in two looks."""
+    scene = ("--scene", SCENE, "--quality", "medium")
+    lampblack("render", STILL, "-o", work / "lit", *scene)
+    lampblack("render", STILL, "-o", work / "cel", *scene, "--look", "hard-cel")
+    lampblack("depth", STILL, "-o", work / "depth.png")
+    drawn, lit, cel = STILL, work / "lit" / STILL.name, work / "cel" / STILL.name
+    save("lamplighter.png", [[opened(drawn), opened(lit)]])
+    save("before-after-cel.jpg", [[opened(path, side=400) for path in (drawn, lit, cel)]])
+    depth = opened(work / "depth.png", side=520)
+    save("depth.jpg", [[opened(drawn, side=520), depth, opened(lit, side=520)]])
+
+
+def floor_below(drawing: Path) -> int:
+    """The canvas line of the lowest pixel that is drawn."""
+    box = Image.open(drawing).convert("RGBA").getchannel("A").getbbox()
+    return box[3] if box else 0
+
+
+def looks_of(name: str, drawing: Path, work: Path) -> None:
+    """Write a drawing in every look, in the light of three rigs."""
+    rows = []
+    for rig, paper in RIGS.items():
+        lit = [work / rig / look / drawing.name for look in LOOKS]
+        for look, path in zip(LOOKS, lit, strict=True):
+            light = ("--rig", rig, "--look", look, "--floor", floor_below(drawing))
+            lampblack("render", drawing, "-o", path.parent, *light, "--quality", "medium")
+        rows.append([opened(path, paper, side=300) for path in lit])
+    save(name, rows)
+
+
+def looks_of_others(work: Path) -> None:
+    """The same of drawings that are not ours."""
+    for name in OTHERS:
+        looks_of(f"looks-{name}.jpg", Path(os.environ["DRAWINGS"]) / f"{name}.png", work / name)
+
+
+def sheet_of_normals(work: Path) -> None:
+    """One side of each test model."""
+    words = ("--models", os.environ["MODELS"], "--split", "test", "--sheet", work / "sheet.png")
+    lampblack("evaluate", *words, "--methods", "lampblack,paper,lumo,inflate,laigter-tuned")
+    save("normals-test.jpg", [[opened(work / "sheet.png", side=1054)]])
+
+
+def sheet_of_the_data_set(work: Path) -> None:
+    """Some entries of a small data set."""
+    words = ("--models", os.environ["MODELS"], "-o", work / "dataset", "--split", "val")
+    lampblack("dataset", "build", *words, "--views", 2)
+    save("dataset.jpg", [[opened(work / "dataset" / "sheet.png", side=910)]])
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How pictures are made that come together."""
+
+    names: tuple[str, ...]
+    make: Callable[[Path], None]
+    how: str
+    needs: str = ""
+    """A variable of the environment."""
+
+
+WINDOW = ("lit", "menu", "floor", "glossy", "normals", "keys")
+RECIPES = (
+    Recipe(
+        ("architecture.svg",),
+        lambda _: run(sys.executable, "tests/architecture.py", IMAGES / "architecture.svg"),
+        "tests/architecture.py, also by make schema",
+    ),
+    Recipe(
+        ("lamplighter.png", "before-after-cel.jpg", "depth.jpg"),
+        stills,
+        "lampblack render and depth, of examples/character.png",
+    ),
+    Recipe(
+        ("looks-bear.jpg",),
+        lambda work: looks_of("looks-bear.jpg", STILL, work),
+        "lampblack render, 12 times",
+    ),
+    Recipe(
+        tuple(f"looks-{name}.jpg" for name in OTHERS),
+        looks_of_others,
+        "lampblack render, 12 times, of a drawing in DRAWINGS",
+        "DRAWINGS",
+    ),
+    Recipe(
+        (*(f"pencil2d-{name}.png" for name in WINDOW), "pencil2d-drawing.gif"),
+        lambda _: run(sys.executable, "tests/record_window.py", IMAGES),
+        "tests/record_window.py, in the real Pencil2D",
+    ),
+    Recipe(
+        ("dragged-light.gif",),
+        lambda _: run(sys.executable, "examples/drag_light.py", IMAGES / "dragged-light.gif"),
+        "examples/drag_light.py",
+    ),
+    Recipe(
+        ("normals-test.jpg",), sheet_of_normals, "lampblack evaluate --sheet, of MODELS", "MODELS"
+    ),
+    Recipe(("dataset.jpg",), sheet_of_the_data_set, "lampblack dataset build, of MODELS", "MODELS"),
+)
+BY_HAND = {
+    "corrections.jpg": "corrections in the view Depth; the values were not kept",
+    "creatures.jpg": "random creatures of a data set; the seed was not kept",
+    "kid.gif": "lampblack render --preview; the scene with its keys was not kept",
+    "normals-curve.png": "curve.png of a run of lampblack train that is gone",
+    "normals-drawings.jpg": "drawings with normals and two lights; the script was not kept",
+    "painted-light.png": "strokes on a layer Light; the strokes were not kept",
+    "pencil2d-depth.png": "a screenshot of the view Depth, taken by hand",
+    "pencil2d-drag.gif": "a drag that was recorded in Pencil2D by hand",
+    "pencil2d-panel.png": "a screenshot of a screen of 1366 x 768, taken by hand",
+    "squirrel.gif": "lampblack render --preview; the scene with its keys was not kept",
+}
+"""Pictures that no command makes yet."""
+
+
+def main(wanted: Sequence[str]) -> int:
+    """Make the pictures ``wanted``, or all whose command is known."""
+    if [*wanted] == ["--list"]:
+        told = {name: recipe.how for recipe in RECIPES for name in recipe.names}
+        told |= {name: f"no command: {how}" for name, how in BY_HAND.items()}
+        sys.stdout.writelines(f"{name:24} {how}\n" for name, how in sorted(told.items()))
+        return 0
+    known = {name for recipe in RECIPES for name in recipe.names}
+    unknown = {*wanted} - known
+    if unknown:
+        sys.stderr.write(f"error: No command makes {', '.join(sorted(unknown))}. See --list.\n")
+        return 2
+    for recipe in RECIPES:
+        names = ", ".join(recipe.names)
+        if wanted and not {*wanted} & {*recipe.names}:
+            continue
+        if recipe.needs and recipe.needs not in os.environ:
+            sys.stderr.write(f"left out, because {recipe.needs} is not set: {names}\n")
+        else:
+            sys.stderr.write(f"{names}\n")
+            with tempfile.TemporaryDirectory() as work:
+                recipe.make(Path(work))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
