@@ -91,6 +91,9 @@ void LampTool::addPanel()
     connect(mPanel->progress(), &JobProgress::cancelRequested, this, &LampTool::cancelRequested);
     connect(&mWorker, &Worker::stateChanged, mPanel.data(), &LampPanel::setWorkerState);
     connect(mPanel, &LampPanel::retryRequested, &mWorker, &Worker::start);
+    connect(&mWorker, &Worker::cardFound, mPanel->device(), &DeviceRow::setCard);
+    connect(mPanel->device(), &DeviceRow::chosen, &mWorker, &Worker::setDevice);
+    mWorker.setDevice(mPanel->device()->device());
     mPanel->setWorkerState(mWorker.state());
     if (auto* rigs = mPanel->findChild<RigMenu*>())
     {

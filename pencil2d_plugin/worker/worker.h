@@ -65,6 +65,15 @@ public:
     virtual void start() = 0;
     virtual void stop() = 0;
 
+    /// What traces the light: a graphics card if there is a good one, or always the processor.
+    enum class Device
+    {
+        Auto,
+        Processor
+    };
+    /// A process that runs is replaced by one with this device; its jobs begin again.
+    virtual void setDevice(Device device) = 0;
+
     /// Frame `frame` shows `pixels` (Format_RGBA8888), which are `layers` together if these are drawn apart.
     /// `camera` maps canvas to view pixels. Returns at once: the digest is calculated in another thread. The
     /// drawing is announced to the worker, again after each restart, and its pixels are sent when the worker
@@ -130,6 +139,7 @@ Q_SIGNALS:
     void renderProgress(quint64 job, int frame, double share, int done, int total);
     void renderFrameDone(quint64 job, int frame, const QString& path);
     void renderDone(quint64 job, const QString& outcome, int done, int total, int failed);
+    void cardFound(const QString& name); ///< the worker traces on this graphics card
     void problem(const lampblack::UserError& error);
 };
 

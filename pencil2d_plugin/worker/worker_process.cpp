@@ -165,7 +165,8 @@ void WorkerProcess::launch()
                     {QStringLiteral("-I"), QStringLiteral("-m"), QStringLiteral("lampblack"),
                      QStringLiteral("serve"), QStringLiteral("--connection"),
                      mFolder->filePath(QStringLiteral("connection.json")), QStringLiteral("--parent-pid"),
-                     QString::number(QCoreApplication::applicationPid())});
+                     QString::number(QCoreApplication::applicationPid()), QStringLiteral("--device"),
+                     mDevice});
 }
 
 void WorkerProcess::checkForConnection()

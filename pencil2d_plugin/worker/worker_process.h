@@ -30,6 +30,8 @@ public:
 
     bool isRunning() const { return mRunning; }
     const Interpreter& interpreter() const { return mInterpreter; }
+    /// As of the option --device, for processes that are started from now on.
+    void setDevice(const QString& device) { mDevice = device; }
     void start();
     void stop();
     /// End a process that is of no more use, and start another. `reason` is for the details of an error.
@@ -54,6 +56,7 @@ private:
     void onDied(const QString& reason);
 
     const Interpreter mInterpreter;
+    QString mDevice = QStringLiteral("auto");
     bool mRunning = false; ///< between start() and stop() or gaveUp()
     std::unique_ptr<QTemporaryDir> mFolder;
     QProcess* mProcess = nullptr;

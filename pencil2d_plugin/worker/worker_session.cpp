@@ -60,6 +60,17 @@ void WorkerSession::stop()
     updateState();
 }
 
+void WorkerSession::setDevice(Device device)
+{
+    mProcess.setDevice(device == Device::Processor ? QStringLiteral("cpu") : QStringLiteral("auto"));
+    if (mProcess.isRunning())
+    {
+        mProcess.stop();
+        onWorkerLost();
+        mProcess.start();
+    }
+}
+
 void WorkerSession::putFrame(int frame, const QImage& pixels, const QTransform& camera,
                              const DrawnLayers& layers)
 {

@@ -32,6 +32,7 @@ public:
     State state() const override { return mState; }
     void start() override;
     void stop() override;
+    void setDevice(Device device) override;
     void putFrame(int frame, const QImage& pixels, const QTransform& camera = {},
                   const DrawnLayers& layers = {}) override;
     void dropFrame(int frame) override;

@@ -145,6 +145,10 @@ void WorkerSession::handle(const protocol::Status& status)
     {
         Q_EMIT framesLit(static_cast<int>(status.framesLit), static_cast<int>(status.framesHeld));
     }
+    if (!status.card.isEmpty() && (!before || before->card != status.card))
+    {
+        Q_EMIT cardFound(status.card);
+    }
 }
 
 void WorkerSession::handle(const protocol::Error& error)

@@ -195,6 +195,7 @@ SAMPLES: dict[Sender, list[Tree]] = {
             "frames_held": 12,
             "frames_lit": 11,
             "memory_bytes": 1500000000,
+            "card": "NVIDIA H200",
         },
         {
             "type": "error",

@@ -56,6 +56,7 @@ class FakeRenderer:
         self.killed = False
         self.alive = True
         self.pid = None
+        self.card = ""
 
     def start(self) -> None:
         self.starts += not self.alive

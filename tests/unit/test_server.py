@@ -8,7 +8,7 @@ from contextlib import ExitStack
 
 import pytest
 
-from lampblack.protocol import Bye, ErrorMessage
+from lampblack.protocol import Bye, ErrorMessage, Status
 from lampblack.scene import default_scene
 from lampblack.service.client import Client
 from lampblack.service.handlers import MAX_CLIENTS
@@ -65,6 +65,12 @@ def test_no_more_clients_than_there_is_room_for(served: Served, client: Client) 
             assert time.monotonic() < until
             time.sleep(0.01)
         late.hello()
+
+
+def test_the_status_names_the_card_that_traces(served: Served, client: Client) -> None:
+    assert client.wait_for(Status)[0].card == ""
+    served.renderer.card = "Paper Card"
+    client.wait_for(Status, 10, lambda status: status.card == "Paper Card")
 
 
 def test_a_worker_that_leaves_says_goodbye_and_ends_its_renderer(

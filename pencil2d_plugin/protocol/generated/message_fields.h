@@ -307,6 +307,7 @@ template <class Fields> void describe(Fields& fields, Status& value)
     fields.integer("frames_held", value.framesHeld, 0, MaxNumber, Need::Optional);
     fields.integer("frames_lit", value.framesLit, 0, MaxNumber, Need::Optional);
     fields.integer("memory_bytes", value.memoryBytes, 0, MaxNumber, Need::Optional);
+    fields.text("card", value.card, 0, 64, Need::Optional);
 }
 
 template <class Fields> void describe(Fields& fields, Error& value)

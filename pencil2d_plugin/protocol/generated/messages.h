@@ -368,6 +368,7 @@ struct Status
     quint64 framesHeld = 0;               ///< frames whose drawing it holds
     quint64 framesLit = 0;                ///< of these, frames lit at low quality with this scene
     quint64 memoryBytes = 0;              ///< resident memory, including child processes
+    QString card = {}; ///< name of the graphics card that traces previews; empty: the processor does
 };
 
 /// An error. The session continues unless it is fatal.

@@ -39,8 +39,9 @@ std::optional<Show> modeOf(int button)
 LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAction& render)
     : mViews(new QButtonGroup(this)), mDepthHelp(new QLabel), mProblem(new ProblemCard),
       mInstall(new InstallCard(findInterpreter().installer)),
-      mRender(new RenderSection(document, surfaces, render)), mWorkerLine(new WorkerLine),
-      mProgress(new JobProgress(QStringLiteral("lampblack.panel"), false)), mHeader(new QWidget(this))
+      mRender(new RenderSection(document, surfaces, render)), mDevice(new DeviceRow(host)),
+      mWorkerLine(new WorkerLine), mProgress(new JobProgress(QStringLiteral("lampblack.panel"), false)),
+      mHeader(new QWidget(this))
 {
     setObjectName(QStringLiteral("lampblack.panel"));
     setFrameShape(QFrame::NoFrame);
@@ -79,6 +80,7 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAc
     column->addWidget(new FloorSection(host, document));
     column->addWidget(new LayersSection(host, document));
     column->addWidget(mRender);
+    column->addWidget(mDevice);
     column->addStretch(1);
     setWidget(content);
     addHeader(small);

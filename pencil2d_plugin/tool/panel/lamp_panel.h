@@ -4,6 +4,7 @@
 #include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/panel/borrowed_height.h"
+#include "tool/panel/device_row.h"
 #include "tool/panel/install_card.h"
 #include "tool/panel/job_progress.h"
 #include "tool/panel/problem_card.h"
@@ -34,6 +35,7 @@ public:
     /// Problems of this kind are over.
     void settleProblem(UserError::Kind kind) { mProblem->settle(kind); }
     RenderSection* render() { return mRender; }
+    DeviceRow* device() { return mDevice; }
     JobProgress* progress() { return mProgress; }
 
     QSize sizeHint() const override;
@@ -59,6 +61,7 @@ private:
     ProblemCard* mProblem;
     InstallCard* mInstall;
     RenderSection* mRender;
+    DeviceRow* mDevice;
     WorkerLine* mWorkerLine;
     JobProgress* mProgress;
     QWidget* mHeader; ///< above the part that scrolls

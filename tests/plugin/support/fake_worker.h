@@ -24,6 +24,7 @@ public:
     State state() const override { return mState; }
     void start() override { ++mStarted; }
     void stop() override { ++mStopped; }
+    void setDevice(Device device) override { mDevice = device; }
     void putFrame(int frame, const QImage& image, const QTransform&, const DrawnLayers& layers) override
     {
         mPut.append(frame);
@@ -110,6 +111,7 @@ public:
     void endJob() { Q_EMIT renderDone(mJob, QStringLiteral("finished"), 0, 0, 0); }
 
     State mState = State::Ready;
+    Device mDevice = Device::Auto;
     int mStarted = 0;
     int mStopped = 0;
     QVector<int> mPut;

@@ -7,6 +7,7 @@
 #include "tool/lamp_tool.h"
 #include "tool/panel/problem_card.h"
 
+#include <QComboBox>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -55,6 +56,34 @@ private Q_SLOTS:
         QVERIFY(host.mPanel != nullptr);
         QVERIFY(host.mLightMenu.contains(lamp.renderAction()));
         QVERIFY(host.mLightMenu.contains(lamp.keepAction()));
+    }
+
+    void aCardCanBeTurnedAway()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        const auto choiceOf = [](const FakeHost& shown)
+        {
+            return shown.mPanel->findChild<QComboBox*>(QStringLiteral("lampblack.panel.device"));
+        };
+        {
+            LampTool lamp(host, worker, document);
+            host.open();
+            QVERIFY2(!choiceOf(host)->isVisible(), "without a card there is nothing to choose");
+            Q_EMIT worker.cardFound(QStringLiteral("Paper Card"));
+            QVERIFY(choiceOf(host)->isVisible());
+            QCOMPARE(choiceOf(host)->itemData(0, Qt::ToolTipRole).toString(), QStringLiteral("Paper Card"));
+            QTest::keyClick(choiceOf(host), Qt::Key_Down);
+            QCOMPARE(worker.mDevice, Worker::Device::Processor);
+        }
+        FakeHost another;
+        another.mRemembered = host.mRemembered;
+        FakeWorker later;
+        LampTool lamp(another, later, document);
+        QCOMPARE(later.mDevice, Worker::Device::Processor);
+        another.open();
+        QVERIFY2(choiceOf(another)->isVisible(), "it can be taken again");
     }
 
     void showsThePictureItIsGivenWhileInUse()
@@ -196,8 +225,8 @@ private Q_SLOTS:
         auto* retry = card->findChild<QToolButton*>(QStringLiteral("lampblack.panel.problem.retry"));
         Q_EMIT worker.problem({QStringLiteral("It broke."), QString(), QString()});
         QVERIFY(!retry->isVisibleTo(card));
-        Q_EMIT worker.problem({QStringLiteral("The renderer of Lampblack is not installed."), QString(),
-                               QString(), UserError::Kind::NoWorker});
+        Q_EMIT worker.problem({QStringLiteral("Lampblack's worker is not installed."), QString(), QString(),
+                               UserError::Kind::NoWorker});
         const int started = worker.mStarted;
         QVERIFY(retry->isVisibleTo(card));
         retry->click();

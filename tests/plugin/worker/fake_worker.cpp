@@ -1,5 +1,5 @@
-// A worker process that follows a script. Started as `fake_worker -m lampblack serve --connection FILE ...`.
-// LAMPBLACK_FAKE names the script, LAMPBLACK_FAKE_FOLDER a folder where it counts its launches and logs
+// A worker process that follows a script. Started as `fake_worker -I -m lampblack serve --connection FILE
+// ...`. LAMPBLACK_FAKE names the script, LAMPBLACK_FAKE_FOLDER a folder where it counts its launches and logs
 // received headers. It does not use the client's codec, so that it can test it.
 #include <QCoreApplication>
 #include <QDir>
@@ -30,7 +30,9 @@ using Frames = std::vector<QByteArray>;
 class FakeWorker
 {
 public:
-    explicit FakeWorker(const QString& connection) : mConnection(connection)
+    FakeWorker(const QString& connection, const QString& device)
+        : mConnection(connection),
+          mCard(device == QLatin1String("auto") ? QStringLiteral("Paper Card") : QString())
     {
         QFile count(mFolder.filePath(QStringLiteral("launches")));
         (void)count.open(QIODevice::ReadWrite | QIODevice::Append);
@@ -226,8 +228,8 @@ private:
             QThread::sleep(600);
         }
         send(
-            R"("type":"status","uptime_ms":1,"revision":0,"preview":"idle","job":"off","frames_held":%1,"frames_lit":%2)",
-            {QString::number(mHeld.size()), QString::number(mHeld.size())});
+            R"("type":"status","uptime_ms":1,"revision":0,"preview":"idle","job":"off","frames_held":%1,"frames_lit":%2,"card":"%3")",
+            {QString::number(mHeld.size()), QString::number(mHeld.size()), mCard});
     }
 
     void show()
@@ -367,6 +369,7 @@ private:
     }
 
     const QString mConnection;
+    const QString mCard; ///< that it finds; a processor is none
     const QByteArray mScript = qgetenv("LAMPBLACK_FAKE");
     const QDir mFolder{qEnvironmentVariable("LAMPBLACK_FAKE_FOLDER")};
     bool mFirst = true; ///< of the launches with this folder
@@ -392,9 +395,10 @@ int main(int argc, char** argv)
     if (arguments.mid(1, 5) != QStringList{QStringLiteral("-I"), QStringLiteral("-m"),
                                            QStringLiteral("lampblack"), QStringLiteral("serve"),
                                            QStringLiteral("--connection")} ||
-        arguments.value(7) != QLatin1String("--parent-pid"))
+        arguments.value(7) != QLatin1String("--parent-pid") ||
+        arguments.value(9) != QLatin1String("--device"))
     {
         return 2;
     }
-    return FakeWorker(arguments[6]).run();
+    return FakeWorker(arguments[6], arguments.value(10)).run();
 }

@@ -198,6 +198,20 @@ private Q_SLOTS:
         QCOMPARE(mProblems.size(), 1);
     }
 
+    void anotherDeviceIsAnotherProcess()
+    {
+        const auto session = open("good");
+        const QSignalSpy cards(session.get(), &Worker::cardFound);
+        QTRY_COMPARE(cards.count(), 1);
+        QCOMPARE(cards[0][0].toString(), QStringLiteral("Paper Card"));
+        session->setDevice(Worker::Device::Processor);
+        QTRY_COMPARE(launchesCounted(), 2);
+        session->setDevice(Worker::Device::Auto);
+        QTRY_COMPARE(cards.count(), 2);
+        QCOMPARE(launchesCounted(), 3);
+        QCOMPARE(mProblems.size(), 0);
+    }
+
     void withoutAWorkerAllElseGoesOn()
     {
         qputenv("LAMPBLACK_FAKE", "good");

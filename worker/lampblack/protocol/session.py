@@ -77,6 +77,14 @@ class Status(Message, frozen=True, kw_only=True):
         Count,
         Meta(description="resident memory, including child processes", extra_json_schema=BYTES),
     ] = 0
+    card: Annotated[
+        str,
+        Meta(
+            max_length=64,
+            description="name of the graphics card that traces previews; empty: the processor does",
+            extra_json_schema={"x-since": "1.3"},
+        ),
+    ] = ""
 
 
 class Bye(Message, frozen=True, kw_only=True):

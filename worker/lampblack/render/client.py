@@ -203,6 +203,13 @@ class RenderChild:
         """Process id of the child, None while there is none."""
         return self._process.pid if self._process else None
 
+    @property
+    def card(self) -> str:
+        """Name of the graphics card that the child traces on; empty if it has none, or before its
+        first render."""
+        started = self._started
+        return started.name if started is not None else ""
+
     def device(self) -> Started:
         """What the child traces on; waits until it has loaded.
 

@@ -172,7 +172,8 @@ class Service:
         self._next_status = 0.0
 
     def _send_status(self) -> None:
-        states = self.preview.state.renderer, self.jobs.state, self.jobs.waiting
+        card = self.preview.renderer.card[:64]
+        states = self.preview.state.renderer, self.jobs.state, self.jobs.waiting, card
         now = self._clock()
         if now < self._next_status and (states == self._states or now < self._next_status - 0.8):
             return
@@ -188,5 +189,6 @@ class Service:
                 frames_held=self.planner.frames_held(session),
                 frames_lit=self.planner.frames_lit(session),
                 memory_bytes=memory,
+                card=card,
             )
             self.send(session, status)
