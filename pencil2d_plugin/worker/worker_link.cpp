@@ -18,8 +18,10 @@ Q_LOGGING_CATEGORY(log, "lampblack.worker")
 
 constexpr int HighWater = 4; // more waits in the outbox, where it can be replaced
 constexpr int HeartbeatMs = 1000;
-constexpr int HeartbeatTimeoutMs = 5000;
-constexpr qint64 GreetingMs = 10000;
+// Long, because on a machine that has much else to do, a worker that is well is silent for seconds.
+constexpr int HeartbeatTimeoutMs = 10000;
+constexpr qint64 GreetingMs = 30000;
+constexpr int MissedStatuses = 10;
 constexpr int MaxRefusalsLogged = 10;
 constexpr int MaxAtOnce = 64;           // messages read before anything is sent again
 constexpr size_t MaxFrames = 1 + 4 + 1; // one more than allowed is enough for the decoder to refuse
@@ -300,7 +302,7 @@ void WorkerLink::handleMessage(const std::vector<zmq::message_t>& frames)
     const auto& received = std::get<protocol::Received>(decoded);
     if (const auto* welcome = std::get_if<protocol::Welcome>(&received.message))
     {
-        mTimeoutMs = 3 * welcome->statusMs + welcome->statusMs / 2;
+        mTimeoutMs = MissedStatuses * welcome->statusMs;
         mLastTickMs = nowMs();
     }
     if (std::holds_alternative<protocol::Status>(received.message))

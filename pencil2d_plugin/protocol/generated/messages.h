@@ -357,7 +357,7 @@ struct Done
     quint64 framesFailed = 0; ///< an error was sent for each
 };
 
-/// Sent regularly: if a client misses three, the worker has ended.
+/// Sent regularly: if a client misses ten, the worker has ended.
 struct Status
 {
     quint64 uptimeMs = 0;                 ///< time since the worker started

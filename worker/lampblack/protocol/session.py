@@ -58,7 +58,7 @@ class Welcome(Message, frozen=True, kw_only=True):
 
 
 class Status(Message, frozen=True, kw_only=True):
-    """Sent regularly: if a client misses three, the worker has ended."""
+    """Sent regularly: if a client misses ten, the worker has ended."""
 
     uptime_ms: Annotated[
         Count, Meta(description="time since the worker started", extra_json_schema=MILLISECONDS)
