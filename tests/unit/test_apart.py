@@ -101,8 +101,9 @@ def stack(layers: list[Layer], leave: str = "") -> Pixels:
         straight = np.divide(colour, whole, out=np.zeros_like(colour), where=whole > 0)
         straight, whole = np.rint(straight * 255) / 255, np.rint(whole * 255) / 255
         below = np.concatenate([straight * whole, whole], axis=2)
-    colour = np.divide(below[..., :3], below[..., 3:], where=below[..., 3:] > 0)
-    return np.rint(np.dstack([colour, below[..., 3]]) * 255).astype(np.uint8)
+    colour, whole = below[..., :3], below[..., 3:]
+    colour = np.divide(colour, whole, out=np.zeros_like(colour), where=whole > 0)
+    return np.rint(np.dstack([colour, whole]) * 255).astype(np.uint8)
 
 
 def difference(a: Pixels, b: Pixels) -> float:
