@@ -8,6 +8,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -53,8 +54,12 @@ def commands() -> Iterator[str]:
         for parameter in command.get_params(context):
             record = parameter.get_help_record(context)
             if record and "--help" not in record[0]:
-                name, meaning = (" ".join(cell.split()).replace("|", "\\|") for cell in record)
-                yield f"| `{TYPE.sub('', name)}` | {meaning} |"
+                # A bar in a cell, as both GitHub and the site read it.
+                name, meaning = (
+                    escape(" ".join(cell.split()), quote=False).replace("|", "&#124;")
+                    for cell in (TYPE.sub("", record[0]), record[1])
+                )
+                yield f"| <code>{name}</code> | {meaning} |"
         yield ""
 
 
