@@ -112,11 +112,16 @@ def test_a_card_that_dies_in_a_job_costs_no_frame(
     assert "2 of them from before" in kept.err
 
 
-def test_a_named_device_that_is_not_there_is_refused(run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize("command", ["render", "estimate"])
+def test_a_named_device_that_is_not_there_is_refused(
+    run: Run, tmp_path: Path, command: str
+) -> None:
     save_picture(tmp_path / "a.png", draw_ball(40))
-    told = run("render", tmp_path / "a.png", "-o", tmp_path / "lit", "--device", "metal")
+    target = ("-o", tmp_path / "lit") if command == "render" else ()
+    told = run(command, tmp_path / "a.png", *target, "--device", "metal")
     assert told.code == 1
     assert "no graphics card for metal" in told.err
+    assert not told.out
     assert not list((tmp_path / "lit").glob("*.png"))
 
 

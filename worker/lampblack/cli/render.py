@@ -92,8 +92,6 @@ def render(
             outcome = light_on_cluster(settings, job, cluster, certificates, Report())
         else:
             with Pipeline(surface_cache(), job.options, device=job.device) as pipeline:
-                if job.device not in ("auto", "cpu"):
-                    pipeline.renderer.require_device()
                 outcome = render_shot(job, pipeline, listener=Report())
     overviews.save(job, outcome.done)
     _summarise(job, outcome)

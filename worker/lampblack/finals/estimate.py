@@ -64,7 +64,8 @@ def estimate(
         progress: receives the share of the work that is done, 0 to 1.
 
     Raises:
-        LampblackError: the shot cannot be read, or none of these frames can be lit.
+        LampblackError: the shot cannot be read, none of these frames can be lit, or the device
+            that the settings name cannot be used.
     """
     with TemporaryDirectory() as folder:
         job = resolve_job(structs.replace(settings, output=f"{folder}/lit"))

@@ -86,7 +86,12 @@ def render_shot(
 
     Args:
         check: called often, from any thread of the job; an exception from it ends the job.
+
+    Raises:
+        RenderError: the job names a device that ``pipeline`` cannot use.
     """
+    if job.device != "auto":
+        pipeline.renderer.require_device()
     wanted = job.frames if frames is None else frames
     run = _Run(job, pipeline, listener or RenderListener(), check)
     tasks = plan(job, pipeline, wanted, run.check)
