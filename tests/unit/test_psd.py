@@ -320,6 +320,51 @@ def test_little_is_read_of_what_is_refused(tmp_path: Path, start: bytes, words: 
         shot_of(path)
 
 
+def sound_start(pixels: int, depth: int = 8) -> bytes:
+    """A file with one layer up to its four channels of so many bytes each. Of 16 bits, they are in
+    a block."""
+    record = struct.pack(">4iH", 0, 0, SIZE[1], SIZE[0], 4)
+    record += b"".join(struct.pack(">hI", number, pixels) for number in (0, 1, 2, -1))
+    record += b"8BIMnorm" + struct.pack(">BBBxI", 255, 0, 0, 12) + bytes(8) + b"\1a\0\0"
+    info = struct.pack(">h", 1) + record
+    info = struct.pack(">I", len(info) + 4 * pixels) + info
+    if depth == 16:
+        info = bytes(8) + b"8BIMLr16" + info
+    head = b"8BPS\0\1" + bytes(6) + struct.pack(">HIIHH", 4, SIZE[1], SIZE[0], depth, 3) + bytes(8)
+    return head + struct.pack(">I", len(info) + 4 * pixels) + info
+
+
+@pytest.mark.parametrize("depth", [8, 16])
+def test_pixels_stay_in_the_file_until_they_are_shown(tmp_path: Path, depth: int) -> None:
+    path, start = tmp_path / "large.psd", sound_start(200 << 20, depth)
+    with path.open("wb") as file:
+        file.write(start)
+        file.truncate(800 << 20)
+    with little_memory(), pytest.raises(ProjectError, match="damaged"):
+        shot_of(path)
+    with path.open("r+b") as file:
+        file.truncate(len(start) + (800 << 20) + 2)
+    with little_memory():
+        shot = shot_of(path)
+        assert not shot.cel(shot.frames[0]).pixels.any()  # alpha is 0 everywhere
+    shot = shot_of(path)
+    path.write_bytes(start + bytes(1 << 20))
+    with pytest.raises(ProjectError, match="changed while the shot was rendered"):
+        shot.cel(shot.frames[0])
+
+
+def test_linked_files_are_passed_over(tmp_path: Path) -> None:
+    path, length = tmp_path / "linked.psd", 700 << 20
+    content = sound_start(3) + bytes(12) + bytes(4) + b"8BIMlnk2" + struct.pack(">I", length)
+    content = content[:34] + struct.pack(">I", len(content) - 38 + length) + content[38:]
+    with path.open("wb") as file:
+        file.write(content)
+        file.truncate(len(content) + length + 2)
+    with little_memory():
+        (layer,) = read_project(path)[0].layers
+    assert layer.name == "a"
+
+
 def test_a_damaged_layer_is_not_black(tmp_path: Path) -> None:
     psd = new()
     layer = put(psd, "body", np.full((30, 30, 4), (*RED, 255), np.uint8))

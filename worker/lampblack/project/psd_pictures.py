@@ -20,13 +20,13 @@ from psd_tools import PSDDecompressionWarning, PSDImage
 from psd_tools.api.adjustments import SolidColorFill
 from psd_tools.api.layers import AdjustmentLayer, Layer
 from psd_tools.constants import ColorMode, Resource
-from psd_tools.psd.parse_limits import ParseLimits
 
 from ..colour import srgb
 from ..drawing.profile import to_srgb
 from ..errors import ProjectError
 from ..files import open_regular, understood
 from .attributes import check_size
+from .psd_record import read_record
 
 MERGED = "merged"
 """The name of the picture of all layers."""
@@ -98,8 +98,9 @@ def open_psd(path: Path) -> tuple[PSDImage, str]:
             _check_header(file, path)
             identity = hashlib.file_digest(file, "blake2b").hexdigest()
             file.seek(0)
-            limits = ParseLimits(max_total_bytes=4 * MAX_BYTES)
-            return PSDImage.open(file, MAX_ALLOCATED, limits), identity
+            psd = PSDImage(read_record(file, path))
+            psd.max_alloc_bytes = MAX_ALLOCATED
+            return psd, identity
     except FileNotFoundError as error:
         raise ProjectError(
             f"There is no drawing at {path}.", "Check the name and the folder."
