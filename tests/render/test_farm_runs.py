@@ -23,6 +23,7 @@ from support.projects import document, image, layer, png, walk, write_project
 BIN = Path(sys.executable).parent
 
 
+@pytest.mark.skipif(not (BIN / "openjd").exists(), reason="openjd-cli is not installed")
 def test_openjd_runs_the_job(run: Run, tmp_path: Path) -> None:
     project, target, out = walk(tmp_path, [1, 2, 1, 9]), tmp_path / "job.yaml", tmp_path / "lit"
     blank = png(np.zeros((8, 8, 4), np.uint8))

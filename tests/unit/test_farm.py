@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from openjd.model import (
     decode_job_template,
 )
 
+from lampblack.cache import ArrayCache
 from lampblack.drawing import parse_frames, save_picture
 from lampblack.drawing.sequence import frame_list
 from lampblack.errors import LampblackError
@@ -23,8 +25,11 @@ from lampblack.farm.cluster import _take_in, check_address, light_group
 from lampblack.farm.tasks import MAX_TASKS, cut_into_tasks
 from lampblack.finals.png import save_png
 from lampblack.finals.render_shot import Outcome, RenderListener
+from lampblack.finals.resolve import resolve_job
 from lampblack.finals.settings import RenderSettings
 from lampblack.finals.targets import Targets
+from lampblack.finals.tasks import stamps
+from lampblack.pipeline import Pipeline
 from lampblack.shot import ShotFrame
 from support.command_line import Run
 from support.drawings import draw_ball
@@ -180,6 +185,10 @@ class Answer:
         return self.said
 
 
+def now(frame: ShotFrame) -> str:
+    return "now"
+
+
 @pytest.mark.parametrize(
     "said",
     [
@@ -202,7 +211,7 @@ def test_a_machine_that_lies_is_not_believed(tmp_path: Path, said: Any) -> None:
     second = 3 if "3.png" in str(said) else 2
     group = [ShotFrame(n, f"{n}.png", str(n)) for n in (1, second)]
     outcome = Outcome()
-    _take_in(outcome, group, Answer(said), RenderListener(), Targets(str(tmp_path)))
+    _take_in(outcome, group, Answer(said), RenderListener(), Targets(str(tmp_path)), now)
     assert [frame.number for frame, _ in outcome.failed] == [1, second]
     assert not outcome.done
 
@@ -212,7 +221,29 @@ def test_a_machine_that_says_what_is_so_is_believed(tmp_path: Path) -> None:
     group = [ShotFrame(n, f"{n}.png", str(n)) for n in (1, 2)]
     outcome = Outcome()
     said = [("2.png", "failed", ["What.", "Do.", "details"]), ("1.png", "done", [])]
-    _take_in(outcome, group, Answer(said), RenderListener(), Targets(str(tmp_path)))
+    _take_in(outcome, group, Answer(said), RenderListener(), Targets(str(tmp_path)), now)
     assert outcome.done == [group[0]]
     ((frame, error),) = outcome.failed
     assert (frame, error.what, error.remedy) == (group[1], "What.", "Do.")
+
+
+def test_a_machine_that_returns_another_frame_is_not_believed(tmp_path: Path) -> None:
+    for number in (1, 2):
+        save_picture(tmp_path / f"{number}.png", draw_ball(20 + number, canvas=24))
+    job = resolve_job(RenderSettings(inputs=(str(tmp_path),), output=str(tmp_path / "lit")))
+    first, second = job.frames
+    with Pipeline(ArrayCache(tmp_path / "cache")) as pipeline:
+        stamp = stamps(job, pipeline)
+        assert stamp(first) == stamp(first) != stamp(second)
+        for frame in job.frames:
+            save_png(job.targets.path(frame), draw_ball(20), stamp(frame))
+
+        def believed(*frames: ShotFrame) -> list[ShotFrame]:
+            outcome, said = Outcome(), [(frame.name, "done", []) for frame in frames]
+            _take_in(outcome, [*frames], Answer(said), RenderListener(), job.targets, stamp)
+            return outcome.done
+
+        assert believed(first) == [first]
+        shutil.copy(job.targets.path(second), job.targets.path(first))
+        assert believed(first) == []
+        assert believed(second) == [second]

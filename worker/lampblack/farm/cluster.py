@@ -11,7 +11,7 @@ import functools
 import ipaddress
 import secrets
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 from urllib.parse import urlsplit
@@ -25,8 +25,8 @@ from ..finals.render_shot import Outcome, RenderListener, render_shot
 from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.settings import RenderSettings
 from ..finals.targets import Targets
+from ..finals.tasks import stamps
 from ..pipeline import Pipeline
-from ..render import RenderChild
 from ..shot import ShotFrame, by_drawing
 from .tasks import on_one_device
 
@@ -78,7 +78,8 @@ def light_on_cluster(
             "Check the address and the certificates, and that its scheduler runs.",
             str(error),
         ) from error
-    with client:
+    with client, Pipeline(surface_cache(), job.options) as unused:
+        stamp = stamps(job, unused)
         groups = by_drawing(job.frames)
         futures: dict[Any, list[ShotFrame]] = {
             client.submit(
@@ -87,7 +88,7 @@ def light_on_cluster(
             for group in groups
         }
         for future in as_completed(futures):  # type: ignore[no-untyped-call]
-            _take_in(outcome, futures[future], future, listener, job.targets)
+            _take_in(outcome, futures[future], future, listener, job.targets, stamp)
     return outcome
 
 
@@ -115,6 +116,9 @@ def light_group(
     """Runs on a worker: render the named frames. Returns (name, result, error text) of each.
 
     ``run`` identifies one call of ``light_on_cluster``; between two calls, drawings may change.
+
+    Raises:
+        RenderError: this machine cannot use the device that the job names.
     """
     with _ONE_AT_A_TIME:
         job = _resolved(settings_json, run)
@@ -151,17 +155,11 @@ def _resolved(settings_json: bytes, run: str) -> ResolvedJob:
 
 
 def _warm_pipeline(options: PipelineOptions, device: DeviceChoice) -> Pipeline:
-    """The worker's pipeline, kept between tasks; its renderer ends with the worker.
-
-    Raises:
-        RenderError: this machine cannot use ``device``.
-    """
+    """The worker's pipeline, kept between tasks; its renderer ends with the worker."""
     if _pipelines and (_pipelines[0][0], _pipelines[0][1].surfaces.options) != (device, options):
         _pipelines.pop()[1].close()
     if not _pipelines:
-        renderer = RenderChild(device=device)
-        renderer.require_device()
-        _pipelines.append((device, Pipeline(surface_cache(), options, renderer=renderer)))
+        _pipelines.append((device, Pipeline(surface_cache(), options, device=device)))
     return _pipelines[0][1]
 
 
@@ -171,16 +169,19 @@ def _take_in(
     future: Any,
     listener: RenderListener,
     targets: Targets,
+    stamp: Callable[[ShotFrame], str],
 ) -> None:
-    """Take in what a machine says of ``group``. Frames are believed when their files are there."""
+    """Take in what a machine says of ``group``. A frame is believed when its files are there and
+    have its stamp, by whatever device."""
     by_name = {frame.name: frame for frame in group}
     try:
         report = msgspec.convert(future.result(), list[tuple[str, Became, list[str]]])
         if sorted(name for name, _, _ in report) != sorted(by_name):
             raise ValueError("it speaks of other frames")
         for name, became, words in report:
-            if became not in ("failed", "full") and not targets.are_whole(by_name[name]):
-                raise ValueError(f"the file of {name} is not there, or not whole")
+            frame = by_name[name]
+            if became not in ("failed", "full") and not targets.holds(frame, stamp(frame), "auto"):
+                raise ValueError(f"the file of {name} is missing, not whole, or another")
             if bool(words) != (became in ("failed", "full")):
                 raise ValueError("it contradicts itself")
     except Exception as error:  # whatever went wrong over there

@@ -148,10 +148,6 @@ class Targets:
                     "Choose another output.",
                 )
 
-    def are_whole(self, frame: ShotFrame) -> bool:
-        """Whether the files of ``frame`` are there and complete, whatever they were made from."""
-        return all(_STAMPS[path.suffix.lower()](path) for path in self.paths(frame))
-
     def holds(self, frame: ShotFrame, stamp: str, device: DeviceChoice) -> DeviceKind | None:
         """The device that traced the files of ``frame`` if they are up to date: complete, with
         this ``stamp``, and all from ``device``. None if they are not."""

@@ -94,6 +94,12 @@ def plan(
         yield from planner.group(group)
 
 
+def stamps(job: ResolvedJob, pipeline: Pipeline) -> Callable[[ShotFrame], str]:
+    """What tells the stamp of a frame's files if they are made from what ``job`` has now. It reads
+    drawings, and raises a LampblackError for one that cannot be read."""
+    return _Planner(job, pipeline, lambda: None).stamp
+
+
 @dataclass
 class _Lighting:
     """Frames of one drawing that share a light: ``scene`` in the cel's pixels, and in those of the
@@ -145,6 +151,12 @@ class _Planner:
             lightings[-1].frames.append((frame, stamp))
         if cel is not None and lightings:
             yield from self._prepare(lightings, cel)
+
+    def stamp(self, frame: ShotFrame) -> str:
+        """The stamp of the files of ``frame``."""
+        shot = self._job.shot
+        canvas = shot.canvas or Canvas(*_size(shot.cel(frame)))
+        return self._stamp(frame, canvas, self._scene(frame, canvas))
 
     def _prepare(self, lightings: Sequence[_Lighting], cel: Cel) -> list[RenderTask]:
         """Tasks for all lightings of a cel. Keys move lights and floor, not the surface."""
