@@ -42,8 +42,10 @@ def read_bounded(path: Path, limit: int) -> bytes:
         OSError: see ``open_regular``; or it is longer than ``limit`` bytes.
     """
     with open_regular(path) as file:
-        data = file.read(limit + 1)
-    if len(data) > limit:
+        # A file that is larger is not read at all; it may still grow meanwhile.
+        large = os.fstat(file.fileno()).st_size > limit
+        data = b"" if large else file.read(limit + 1)
+    if large or len(data) > limit:
         raise OSError(errno.EFBIG, f"Larger than {limit >> 10} KiB", str(path))
     return data
 

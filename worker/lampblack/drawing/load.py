@@ -30,8 +30,8 @@ from .tiff import tiff_depth, unknown_tiff
 
 MAX_SIDE = 16384
 MAX_PIXELS = 40_000_000
-MAX_PICTURE_BYTES = 10 * MAX_PIXELS
-"""Of a picture file: 16 bits for each of four channels, uncompressed, and some room."""
+MAX_PICTURE_BYTES = 256 << 20
+"""Of a picture file: 16 bits for each of three channels, uncompressed, and some room."""
 PICTURE_SUFFIXES = frozenset(
     (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".tga", ".bmp", ".gif")
 )

@@ -16,14 +16,21 @@ from ..errors import LampblackWarning, ProjectError
 AGAIN = "Open it in its own program and save it again; if that fails, restore a backup."
 """What to do with a file that is whole, but says something that makes no sense."""
 MAX_PLACE = 1_000_000
+MAX_TAGS, MAX_ATTRIBUTES = 600_000, 1_500_000
+"""Of a description. Parsed, each takes many times its bytes of memory."""
 
 
 def sound_xml(xml: bytes, name: str) -> Element:
     """The root of ``xml``; ``name`` is for the errors.
 
     Raises:
-        ProjectError: the XML is malformed or declares entities.
+        ProjectError: the XML is malformed, declares entities or has too many parts.
     """
+    if xml.count(b"<") > MAX_TAGS or xml.count(b"=") > MAX_ATTRIBUTES:
+        raise ProjectError(
+            f"The description in {name} has more parts than can be read.",
+            "Save the drawings as several projects.",
+        )
     try:
         root: Element = fromstring(xml, forbid_entities=True)
     except (ParseError, DefusedXmlException, ValueError, LookupError, RecursionError) as error:

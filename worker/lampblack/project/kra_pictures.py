@@ -83,7 +83,7 @@ class KraFile:
             "Save it again in Krita, or restore a backup.",
         )
         with understood(damaged):
-            pixels = unpacked(data[:cut], self.size, stored.place, data[cut:])
+            pixels = unpacked(memoryview(data)[:cut], self.size, stored.place, data[cut:])
         if stored.mask:
             return np.dstack([pixels] * 3 + [np.full_like(pixels, 255)])
         image = Image.fromarray(np.ascontiguousarray(pixels[..., [2, 1, 0, 3]]))
