@@ -10,7 +10,7 @@ import re
 import signal
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
@@ -53,11 +53,18 @@ def print_error(error: LampblackError, subject: str = "") -> None:
         say(f"  details: {error.details}", "dim")
 
 
-def _print_warning(
-    message: Warning | str, category: type[Warning], *_: object, **__: object
-) -> None:
-    _console().print("[bold yellow]warning:[/] ", end="")
-    say(str(message))
+def _warning_printer() -> Callable[..., None]:
+    """Prints warnings, each sentence once."""
+    told = set[str]()
+
+    def print_warning(message: Warning | str, *_: object, **__: object) -> None:
+        sentence = str(message)
+        if sentence not in told:
+            told.add(sentence)
+            _console().print("[bold yellow]warning:[/] ", end="")
+            say(sentence)
+
+    return print_warning
 
 
 def _terminate(number: int, frame: FrameType | None) -> NoReturn:
@@ -75,7 +82,7 @@ def for_people() -> Iterator[None]:
         signal.signal(number, _terminate)
     warnings.simplefilter("ignore")
     warnings.simplefilter("always", LampblackWarning)
-    warnings.showwarning = _print_warning
+    warnings.showwarning = _warning_printer()
     try:
         yield
     except LampblackError as error:
