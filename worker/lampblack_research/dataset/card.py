@@ -10,12 +10,12 @@ from typing import Any
 from lampblack import __version__
 
 from .build import OCCLUSION_STEP, DatasetOptions
-from .triple import BEHIND, DEPTH_STEPS, IN_FRONT
+from .triple import BEHIND, DEPTH_STEPS, IN_FRONT, entry_paths
 
 
 def dataset_card(folder: Path, options: DatasetOptions) -> dict[str, Any]:
     """JSON-able card of the data set in ``folder``, built with ``options``."""
-    entries = Counter(path.parent.name for path in sorted(folder.rglob("[!.]*.npz")))
+    entries = Counter(path.parent.name for path in entry_paths(folder))
     settings = asdict(options)
     del settings["workers"]
     return {

@@ -10,7 +10,7 @@ from PIL import Image
 
 from lampblack.errors import LampblackError
 
-from .triple import BEHIND, IN_FRONT, Triple
+from .triple import BEHIND, IN_FRONT, Triple, entry_paths
 
 CELL = 160
 ROWS = 16
@@ -22,7 +22,7 @@ def dataset_sheet(folder: Path) -> Image.Image:
     Raises:
         LampblackError: the data set is empty.
     """
-    paths = sorted(folder.rglob("[!.]*.npz"))
+    paths = entry_paths(folder)
     if not paths:
         raise LampblackError(f"{folder} holds no data set.", "Check that the models can be read.")
     chosen = paths[:: max(1, len(paths) // ROWS)][:ROWS]

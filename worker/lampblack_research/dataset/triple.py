@@ -86,6 +86,11 @@ class Triple:
             ) from error
 
 
+def entry_paths(folder: Path) -> list[Path]:
+    """The entries of the data set in ``folder``. Those that are being written have other names."""
+    return sorted(path for path in folder.rglob("[!.]*.npz") if path.is_file())
+
+
 def occlusion_edges(view: GBuffer, step: float) -> NDArray[np.uint8]:
     """(H, W) uint8 map of the depth jumps of more than ``step`` pixels; see ``Triple``.
 

@@ -18,7 +18,7 @@ import torch
 
 from lampblack.errors import LampblackError
 
-from ..dataset.triple import Triple
+from ..dataset.triple import Triple, entry_paths
 
 RESCAN_SECONDS = 60
 FEWEST = 64
@@ -113,7 +113,7 @@ class Stream(Generic[Example]):
 def entries_by_source(data: Path) -> dict[str, list[Path]]:
     """The entries of a data set, by the source of their models."""
     sources: dict[str, list[Path]] = defaultdict(list)
-    for path in sorted(data.rglob("[!.]*.npz")):
+    for path in entry_paths(data):
         sources[path.parent.name].append(path)
     return dict(sources)
 
