@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import os
 import signal
+import struct
 import subprocess
 import sys
 import time
+import zlib
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from lampblack.colour import linear
 from lampblack.drawing import load_picture, save_picture
 from support.command_line import Run, files
 from support.drawings import draw_ball
 from support.processes import gone
 from support.projects import walk
+from unit.test_drawing_load import chunk
 
 
 def test_render_lights_a_sequence_and_holds_are_copies(run: Run, tmp_path: Path) -> None:
@@ -33,6 +37,33 @@ def test_render_lights_a_sequence_and_holds_are_copies(run: Run, tmp_path: Path)
     assert not np.array_equal(first, second)
     assert np.abs(first.astype(int) - draw_ball(96)).max() > 20
     assert load_picture(sheet).shape[2] == 4
+
+
+def linear_png(picture: np.ndarray) -> bytes:
+    """``picture`` with 16 bits in linear light, as its gamma says."""
+    height, width, _ = picture.shape
+    light = np.dstack([linear(picture[..., :3] / 255.0), picture[..., 3:] / 255.0])
+    rows = np.rint(light * 65535).astype(">u2").reshape(height, -1)
+    data = zlib.compress(b"".join(b"\0" + row.tobytes() for row in rows))
+    parts = (
+        chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 16, 6, 0, 0, 0)),
+        chunk(b"gAMA", struct.pack(">I", 100_000)),
+        chunk(b"IDAT", data),
+        chunk(b"IEND", b""),
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
+
+
+def test_a_drawing_in_linear_light_is_lit_as_it_looks(run: Run, tmp_path: Path) -> None:
+    save_picture(tmp_path / "plain.png", draw_ball(96))
+    (tmp_path / "linear.png").write_bytes(linear_png(draw_ball(96)))
+    for name in ("plain", "linear"):
+        done = run(
+            "render", tmp_path / f"{name}.png", "-o", tmp_path / "lit", "--light", "20,20,60"
+        )
+        assert done.code == 0, done.err
+    plain, light = (load_picture(tmp_path / "lit" / f"{n}.png") for n in ("plain", "linear"))
+    assert np.array_equal(plain, light)
 
 
 def test_a_job_that_is_killed_goes_on_where_it_was(tmp_path: Path) -> None:
