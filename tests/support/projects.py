@@ -16,7 +16,10 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from lampblack.choices import LayerRole
 from lampblack.drawing import load_picture
+from lampblack.project import read_project
+from lampblack.project.shot import ProjectShot
 from support.drawings import draw_ball
 
 Picture = NDArray[np.uint8]
@@ -125,3 +128,29 @@ def exported(project: Path, first: int, last: int) -> list[Picture]:
             timeout=120,
         )
         return [load_picture(f"{home}/frame{n:04d}.png") for n in range(first, last + 1)]
+
+
+def blob(width: int, height: int, seed: int, alpha: int = 255) -> Picture:
+    """A smooth, opaque or translucent patch."""
+    rows, columns = np.mgrid[0:height, 0:width] / 20 + seed
+    waves = [np.sin(rows * k + columns) for k in (1, 2, 3)]
+    colour = np.stack(waves, axis=2) * 100 + 128
+    return np.dstack([colour, np.full((height, width), alpha)]).astype(np.uint8)
+
+
+def shot_of(path: Path, roles: dict[str, LayerRole] | None = None) -> ProjectShot:
+    return ProjectShot(*read_project(path), roles or {})
+
+
+def unlit(shot: ProjectShot) -> list[Picture]:
+    """Every frame with its cel as drawn."""
+    return [shot.finish(frame, shot.cel(frame).pixels) for frame in shot.frames]
+
+
+def difference(a: Picture, b: Picture) -> NDArray[np.float64]:
+    """Of premultiplied colours, in levels, for each pixel."""
+    one, other = (
+        np.dstack([p[..., :3] * (p[..., 3:] / 255.0), p[..., 3].astype(float)]) for p in (a, b)
+    )
+    worst: NDArray[np.float64] = np.abs(one - other).max(axis=2)
+    return worst

@@ -1,4 +1,4 @@
-"""Projects as Pencil2D shows them, and what is refused of those that nobody drew."""
+"""Projects of Pencil2D: what of them is lit, and what is refused of those that nobody drew."""
 
 from __future__ import annotations
 
@@ -9,26 +9,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PIL import Image
 
 from lampblack.choices import LayerRole
 from lampblack.errors import LampblackWarning, ProjectError
 from lampblack.project import read_project
 from lampblack.project.archive import MAX_XML_BYTES
-from lampblack.project.shot import ProjectShot
 from lampblack.scene import default_scene
 from support.command_line import files
 from support.drawings import draw_ball
 from support.projects import (
     ARCH,
-    PALETTE,
     STILL,
+    blob,
     document,
-    exported,
     image,
     layer,
-    needs_pencil2d,
     png,
+    shot_of,
+    unlit,
     write_project,
 )
 
@@ -36,14 +34,6 @@ Picture = NDArray[np.uint8]
 PAN = (
     '<camera frame="1" r="0" s="1" dx="0" dy="0"/><camera frame="5" r="0" s="1" dx="-41" dy="18"/>'
 )
-
-
-def blob(width: int, height: int, seed: int, alpha: int = 255) -> Picture:
-    """A smooth, opaque or translucent patch."""
-    rows, columns = np.mgrid[0:height, 0:width] / 20 + seed
-    waves = [np.sin(rows * k + columns) for k in (1, 2, 3)]
-    colour = np.stack(waves, axis=2) * 100 + 128
-    return np.dstack([colour, np.full((height, width), alpha)]).astype(np.uint8)
 
 
 FILES = {
@@ -62,62 +52,11 @@ BALL = layer(2, "figure", [image(1, "ball.png")])
 ROLES: dict[str, LayerRole] = {"figure": "character"}
 
 
-def shot_of(path: Path, roles: dict[str, LayerRole] | None = None) -> ProjectShot:
-    return ProjectShot(*read_project(path), roles or {})
-
-
-def unlit(shot: ProjectShot) -> list[Picture]:
-    """Every frame with its cel as drawn."""
-    return [shot.finish(frame, shot.cel(frame).pixels) for frame in shot.frames]
-
-
-def difference(a: Picture, b: Picture) -> NDArray[np.float64]:
-    """Of premultiplied colours, in levels, for each pixel."""
-    one, other = (
-        np.dstack([p[..., :3] * (p[..., 3:] / 255.0), p[..., 3].astype(float)]) for p in (a, b)
-    )
-    worst: NDArray[np.float64] = np.abs(one - other).max(axis=2)
-    return worst
-
-
-@needs_pencil2d
-@pytest.mark.parametrize("roles", [{}, ROLES], ids=["all lit", "one lit"])
-@pytest.mark.parametrize("camera", [STILL, PAN], ids=["still", "pan"])
-def test_frames_are_those_that_pencil2d_exports(
-    tmp_path: Path, camera: str, roles: dict[str, LayerRole]
-) -> None:
-    path = write_project(tmp_path / "walk.pclx", document(LAYERS, camera=camera), FILES)
-    ours, theirs = unlit(shot_of(path, roles)), exported(path, 1, 5)
-    assert len(ours) == 5
-    for mine, truth in zip(ours, theirs, strict=True):
-        assert difference(mine, truth).max() <= 2
-
-
 def test_a_frame_that_the_camera_flattens_is_empty(tmp_path: Path) -> None:
     """Matrices of opposite angles meet at zero, halfway."""
     xml = document([BALL], camera='<camera frame="1"/><camera frame="3" r="180"/>')
     frames = unlit(shot_of(write_project(tmp_path / "w.pclx", xml, FILES)))
     assert [bool(frame.any()) for frame in frames] == [True, False, True]
-
-
-@needs_pencil2d
-@pytest.mark.parametrize("zoom", [0.04, 0.23, 0.5])
-def test_a_far_camera_costs_what_its_picture_does(tmp_path: Path, zoom: float) -> None:
-    """The canvas that it sees is painted at the picture's size."""
-    side = round(70 / zoom)
-    big = np.asarray(Image.fromarray(blob(70, 70, 1)).resize((side, side)))
-    layers = [
-        layer(2, "far", [image(1, "big.png", -side // 2 - 3, -side // 2)]),
-        layer(3, "arch", ['frame="1" src="a.vec"'], kind=2),
-    ]
-    contents = {"big.png": png(big), "a.vec": ARCH.encode(), "palette.xml": PALETTE.encode()}
-    camera = f'<camera frame="1" r="0" s="{zoom}" dx="7" dy="-31"/>'
-    path = write_project(tmp_path / "w.pclx", document(layers, camera=camera), contents)
-    shot = shot_of(path)
-    assert shot.cel(shot.frames[0]).pixels.shape[1] == 200
-    off = difference(unlit(shot)[0], exported(path, 1, 1)[0])
-    assert off.mean() < 0.6
-    assert np.mean(off > 12) < 0.01
 
 
 def test_more_canvas_than_can_be_lit_is_lit_smaller(tmp_path: Path) -> None:
@@ -128,28 +67,6 @@ def test_more_canvas_than_can_be_lit_is_lit_smaller(tmp_path: Path) -> None:
     assert shot.cel(shot.frames[0]).pixels[..., 3].any()
     scene = shot.place(shot.frames[0], default_scene(200, 160), (shot.region.width, 9))
     assert scene.lights[0].z == pytest.approx(100 * shot.region.scale)
-
-
-@needs_pencil2d
-@pytest.mark.parametrize("size", [(200, 160), (203, 161)])
-def test_vector_layers_are_drawn_by_pencil2d(tmp_path: Path, size: tuple[int, int]) -> None:
-    layers = [
-        layer(2, "ball", [image(1, "ball.png", -45, -45)]),
-        layer(3, "arch", ['frame="1" src="a.vec"', 'frame="3" src="b.vec"'], kind=2),
-    ]
-    files = {
-        "ball.png": FILES["ball.png"],
-        "a.vec": ARCH.encode(),
-        "b.vec": ARCH.replace('vx="30"', 'vx="70"').encode(),
-        "palette.xml": PALETTE.encode(),
-    }
-    # By whole pixels: Pencil2D rounds where bitmaps go, but not vectors.
-    pan = PAN.replace("-41", "-40").replace("18", "16")
-    path = write_project(tmp_path / "v.pclx", document(layers, camera=pan, size=size), files)
-    ours = unlit(shot_of(path))
-    for mine, truth in zip(ours, exported(path, 1, 5), strict=True):
-        assert difference(mine, truth).max() <= 2
-    assert difference(ours[0], ours[2]).max() > 100
 
 
 def test_without_pencil2d_vector_layers_are_told(
@@ -245,70 +162,6 @@ def test_broken_pictures_are_told_by_their_frame(tmp_path: Path) -> None:
     for frame, words in zip(shot.frames[1:], ("frame 2", "too large"), strict=True):
         with pytest.raises(ProjectError, match=words):
             shot.cel(frame)
-
-
-INLINE = ARCH[ARCH.index("<curve") : ARCH.index("</image>")]
-HABITS = {
-    "never drawn": [layer(2, "x", [image(1, "a.png"), image(2, "gone.png"), image(3, "a.png")])],
-    "no file named": [layer(2, "x", [image(1, "a.png"), 'frame="2"', image(3, "a.png", 9, 9)])],
-    "vector never drawn": [
-        layer(2, "x", ['frame="1" src="a.vec"', 'frame="2" src="b.vec"'], kind=2)
-    ],
-    "vector in the XML": [
-        '<layer id="2" type="2" name="v" visibility="1">'
-        f'<image frame="1" type="vector">{INLINE}</image><image frame="3" type="vector"/></layer>'
-    ],
-    "key at 0": [layer(2, "x", [image(0, "a.png", -40, -40), image(2, "a.png", 5, -40)])],
-    "key before 0": [layer(2, "x", [image(-3, "a.png", -40, -40), image(3, "a.png", 5, 0)])],
-    "two keys at one frame": [layer(2, "x", [image(1, "a.png"), image(1, "a.png", -40, 5)])],
-    "JPEG under a PNG's name": [layer(2, "x", [image(1, "jpeg.png", -40, -40)])],
-    "sound": [
-        layer(2, "x", [image(1, "a.png")]),
-        '<layer id="9" type="4" name="s" visibility="1"><sound frame="1" src="x.wav"/></layer>',
-    ],
-}
-
-
-@needs_pencil2d
-@pytest.mark.parametrize("habit", HABITS)
-def test_habits_of_pencil2d_are_shown_as_it_shows_them(tmp_path: Path, habit: str) -> None:
-    jpeg = io.BytesIO()
-    Image.fromarray(draw_ball(90)[..., :3]).save(jpeg, "JPEG", quality=95)
-    contents = {"a.png": FILES["ball.png"], "jpeg.png": jpeg.getvalue(), "a.vec": ARCH.encode()}
-    contents["palette.xml"] = PALETTE.encode()
-    path = write_project(tmp_path / "w.pclx", document(HABITS[habit]), contents)
-    ours, theirs = unlit(shot_of(path)), exported(path, 1, 3)
-    for mine, truth in zip(ours, theirs, strict=False):
-        assert difference(mine, truth).max() <= (3 if "JPEG" in habit else 2)
-    assert theirs[0].any()
-
-
-@needs_pencil2d
-@pytest.mark.parametrize("old", ["no camera", "no document"])
-def test_projects_of_early_versions_are_shown_as_pencil2d_shows_them(
-    tmp_path: Path, old: str
-) -> None:
-    xml = document([BALL])
-    if old == "no camera":
-        start = xml.index('<layer id="1"')
-        xml = xml[:start] + xml[xml.index("</layer>") + len("</layer>") :]
-    else:
-        drawn = xml[xml.index("<object>") : xml.index("</object>")]
-        xml = f"<!DOCTYPE PencilDocument>{drawn}</object>"
-    path = write_project(tmp_path / "w.pclx", xml, FILES)
-    mine, truth = unlit(shot_of(path))[0], exported(path, 1, 1)[0]
-    assert mine.shape == truth.shape
-    assert difference(mine, truth).max() <= 2
-
-
-@needs_pencil2d
-def test_a_project_that_pencil2d_saved_is_shown_as_it_shows_it() -> None:
-    """Keys of a bitmap and a vector layer, doubled, moved and added blank in Pencil2D 0.6.6."""
-    path = Path(__file__).parents[1] / "data" / "pencil2d" / "keys.pclx"
-    ours, theirs = unlit(shot_of(path)), exported(path, 1, 6)
-    assert [bool(truth.any()) for truth in theirs] == [True, True, True, True, False, True]
-    for mine, truth in zip(ours, theirs, strict=True):
-        assert difference(mine, truth).max() <= 2
 
 
 def test_a_picture_that_was_lost_is_told(tmp_path: Path) -> None:
