@@ -28,31 +28,13 @@ from lampblack.scene import default_scene
 from lampblack.service.client import Client, Worker
 from support.drawings import draw_ball
 from support.jumping_clock import JumpingClock
+from support.processes import processes_below
 
 MINUTES = float(os.environ.get("LAMPBLACK_CHAOS_MINUTES", "1"))
 SIZE, FRAMES = 96, 40
 WHOLE = (0.0, 0.0, float(SIZE), float(SIZE))
 RENDERER = b"lampblack.render.child"
 YEAR = 365 * 86400
-
-
-def processes_below(root: int) -> dict[int, bytes]:
-    """Command lines of all processes that descend from ``root``."""
-    parents: dict[int, int] = {}
-    for entry in Path("/proc").glob("[0-9]*/stat"):
-        with suppress(OSError, IndexError, ValueError):
-            fields = entry.read_text().rpartition(")")[2].split()
-            if fields[0] not in "ZX":
-                parents[int(entry.parent.name)] = int(fields[1])
-    found: dict[int, bytes] = {}
-    for pid in parents:
-        above = pid
-        while above in parents and above != root:
-            above = parents[above]
-        if above == root and pid != root:
-            with suppress(OSError):
-                found[pid] = Path(f"/proc/{pid}/cmdline").read_bytes()
-    return found
 
 
 class Shot:

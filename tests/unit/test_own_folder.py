@@ -38,6 +38,17 @@ def test_the_folders_of_ended_processes_are_removed(tmp_path: Path) -> None:
     assert (others[0] / "kept").exists(), "a link is not followed"
 
 
+def test_a_worker_removes_what_another_pencil2d_left(tmp_path: Path) -> None:
+    ended = subprocess.run([sys.executable, "-c", "import os; print(os.getpid())"],
+                           capture_output=True, text=True, check=True).stdout.strip()  # fmt: skip
+    left, ours = (tmp_path / f"lampblack-{pid}-qtXyZabC" for pid in (ended, os.getpid()))
+    for folder in (left, ours):
+        folder.mkdir()
+    made = own_folder(ours)
+    assert made.parent == ours.resolve()
+    assert list(tmp_path.iterdir()) == [ours]
+
+
 @pytest.fixture
 def short_path() -> Iterator[Path]:
     """A folder whose path leaves room for that of a socket."""

@@ -24,6 +24,8 @@ def own_folder(place: Path | None = None) -> Path:
     """
     place = place or Path(tempfile.gettempdir())
     _sweep(place)
+    if _NAME.fullmatch(place.name):  # the one in which the plugin keeps all that is of its worker
+        _sweep(place.parent)
     return Path(tempfile.mkdtemp(prefix=f"lampblack-{os.getpid()}-", dir=place)).resolve()
 
 
