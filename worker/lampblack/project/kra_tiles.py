@@ -23,7 +23,9 @@ _HEADER = re.compile(
 _TILE = re.compile(rb"(-?\d{1,7}),(-?\d{1,7}),LZF,(\d{1,6})\n")
 
 
-def unpacked(data: bytes, size: tuple[int, int], place: tuple[int, int], default: bytes) -> Bytes:
+def unpacked(
+    data: bytes | memoryview, size: tuple[int, int], place: tuple[int, int], default: bytes
+) -> Bytes:
     """(H, W, samples) uint8: the part of a layer on a canvas of ``size`` (width, height).
 
     Args:
