@@ -11,6 +11,11 @@
 
 #include <algorithm>
 
+#ifdef Q_OS_LINUX
+#include <csignal>
+#include <sys/prctl.h>
+#endif
+
 namespace lampblack
 {
 
@@ -52,6 +57,21 @@ QProcessEnvironment cleanEnvironment(const QString& folder)
     clean.remove(QStringLiteral("XDG_RUNTIME_DIR"));
     return clean;
 }
+
+/// A process that goes on if it is stopped when this one ends: only then can it see that, and end too.
+class Child : public QProcess
+{
+public:
+    using QProcess::QProcess;
+
+protected:
+    void setupChildProcess() override
+    {
+#ifdef Q_OS_LINUX
+        prctl(PR_SET_PDEATHSIG, SIGCONT);
+#endif
+    }
+};
 
 } // namespace
 
@@ -138,7 +158,7 @@ void WorkerProcess::launch()
         return;
     }
     mStderrTail.clear();
-    mProcess = new QProcess(this);
+    mProcess = new Child(this);
     mProcess->setProcessEnvironment(cleanEnvironment(mFolder->path()));
     // Pencil2D's own folder may be a downloaded project: nothing in it is to be loaded.
     mProcess->setWorkingDirectory(mFolder->path());

@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -116,7 +115,7 @@ class Pencil2D:
         home, temporary = folder / "home", folder / "tmp"
         for each in (home, temporary):
             each.mkdir(parents=True, exist_ok=True)
-        self.display, self._scale = display, scale
+        self.display, self._scale, self._killed = display, scale, False
         self._socket_name = str(folder / "probe")
         with suppress(FileNotFoundError):
             Path(self._socket_name).unlink()
@@ -169,13 +168,19 @@ class Pencil2D:
         """As a file manager would; the lamp stays in use."""
         assert self._ask({"do": "open", "path": str(project)})["done"]
 
+    def kill(self) -> None:
+        """End it as a crash would."""
+        self.process.kill()
+        self.process.wait(10)
+        self._killed = True
+
     def close(self) -> None:
         """End it without a question, if it is still there, and see that it had not died."""
-        died = self.process.poll()
+        died = None if self._killed else self.process.poll()
         self._lines.close()
         self._probe.close()
         if died is None:
-            self.process.send_signal(signal.SIGKILL)
+            self.process.kill()
             self.process.wait(10)
         self._output.close()
         assert not died, f"Pencil2D ended with {died}:\n{self.log.read_text()[-3000:]}"

@@ -28,6 +28,7 @@ from support.lamp import (
     settled,
     sidecar,
 )
+from support.processes import workers_of
 from support.registration import luminance, offset
 from support.window import Display, Pencil2D, SharedPencil2D, pencil2d, wait_until
 
@@ -58,27 +59,11 @@ def test_near_side_brightens_and_far_side_darkens(window: Pencil2D) -> None:
         assert_light_goes_right(window, canvas)
 
 
-def worker_pids(window: Pencil2D) -> list[int]:
-    """Workers that this Pencil2D started."""
-    found = []
-    for process in Path("/proc").iterdir():
-        if not process.name.isdigit():
-            continue
-        try:
-            parent = int((process / "stat").read_text().rsplit(")", 1)[1].split()[1])
-            command = (process / "cmdline").read_bytes()
-        except OSError:
-            continue
-        if parent == window.process.pid and b"lampblack\0serve" in command:
-            found.append(int(process.name))
-    return found
-
-
 def test_worker_killed_while_dragging(window: Pencil2D) -> None:
     canvas = Canvas(window)
     light_up(window)
     before = window.value("lampblack", "shownRevision")
-    (pid,) = worker_pids(window)
+    (pid,) = workers_of(window.process.pid)
     start = light_on_screen(window, canvas)
     path = [(start[0] + 4 * i, start[1] + 2 * i) for i in range(60)]
     for index in window.drag(path, pause=0.03):
@@ -86,7 +71,7 @@ def test_worker_killed_while_dragging(window: Pencil2D) -> None:
             os.kill(pid, signal.SIGKILL)
     settled(window)
     assert window.value("lampblack", "shownRevision") > before
-    assert worker_pids(window) != [pid]
+    assert workers_of(window.process.pid) != [pid]
     assert window.process.poll() is None
 
 
