@@ -80,6 +80,8 @@ def draw_puppet(window: Pencil2D, hand: Hand) -> None:
     hand.paint(COAT, 180.0, BODY)
     window.key("ctrl+alt+b")
     wait_until(lambda: window.of_class("QInputDialog"), "the name of the new layer")
+    focus = "getwindowfocus", "getwindowname"
+    wait_until(lambda: "Layer" in window.display.do(*focus), "its keyboard focus")
     window.display.do("type", "Arm")
     window.key("Return")
     wait_until(lambda: not window.of_class("QInputDialog"), "the new layer")
