@@ -16,12 +16,14 @@ import numpy as np
 import pytest
 
 from lampblack.bench.memory import processor_seconds
+from lampblack.colour import hex_linear
 from lampblack.composite.resample import Band, enlarge
 from lampblack.errors import RenderError
 from lampblack.render.client import RenderChild
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.render.quality import QUALITIES, Quality, Sampling
 from lampblack.render.request import RenderRequest
-from lampblack.scene import AreaLight, Canvas, Floor
+from lampblack.scene import Ambient, AreaLight, Canvas, Floor
 from lampblack.surface.relief import Relief
 from support.processes import gone
 from support.surfaces import Heights, ball, plane, surface
@@ -92,6 +94,64 @@ def test_each_source_is_traced_alone(child: RenderChild) -> None:
         )
     )
     assert abs(again.lights[0].diffuse - alone.lights[0].diffuse).max() < 1e-4
+
+
+LAMPS = (AreaLight(10, 5, 40, 30, "#ffd0a0", 1.5), AreaLight(60, 40, -20, 30, "#8db7ff", 2))
+SUN = (AreaLight(40, 70, 50, 60, "#c0ffd0", 0.6, "sun"),)
+
+
+def mixture_of(passes: Passes, lights: tuple[AreaLight, ...], ambient: Ambient) -> LightPasses:
+    """The sum of all passes, in colour and power."""
+    weights = [hex_linear(light.colour) * light.power for light in lights]
+    weights.append(hex_linear(ambient.colour) * ambient.strength)
+    sources = list(zip(weights, (*passes.lights, passes.ambient), strict=True))
+    found = [
+        np.asarray(sum(weight * getattr(light, part) for weight, light in sources), np.float32)
+        for part in ("diffuse", "glossy", "floor", "open_floor")
+        if getattr(passes.ambient, part) is not None
+    ]
+    return LightPasses(*found)
+
+
+@pytest.mark.parametrize("lights", [LAMPS, SUN])
+def test_lights_traced_as_one_are_the_sum_of_all(
+    child: RenderChild, lights: tuple[AreaLight, ...]
+) -> None:
+    ambient = Ambient("#e0e8ff", 0.4)
+    dome = ball(64, 64, (32, 30), 24, gloss=0.4)
+    apart = RenderRequest(
+        dome, Canvas(64, 64), lights, floor=Floor(50), quality=quality(128, floor_spp=256)
+    )
+    expected = mixture_of(child.render(apart), lights, ambient)
+    found = child.render(replace(apart, mixed_with=ambient))
+    assert found.lights == ()
+    assert found.mixture is not None
+    row, column = np.mgrid[:64, :64] + 0.5
+    inside = np.hypot(row - 30, column - 32) < 22
+    for part in ("diffuse", "glossy"):
+        one, other = (getattr(light, part)[inside] for light in (found.mixture, expected))
+        assert one.mean(axis=0) == pytest.approx(other.mean(axis=0), rel=0.002)
+        assert np.sqrt(((one - other) ** 2).mean()) < 0.01 * other.max()
+    one, other = (light.floor / light.open_floor for light in (found.mixture, expected))
+    assert np.sqrt(((one - other) ** 2).mean()) < 0.02
+    assert abs(other - 1).max() > 0.2
+
+
+def test_lights_traced_as_one_have_no_more_noise(child: RenderChild) -> None:
+    ambient, lights = Ambient("#e0e8ff", 0.4), LAMPS
+    apart = RenderRequest(
+        ball(128, 128, (64, 60), 50), Canvas(128, 128), lights, quality=QUALITIES["final"]
+    )
+    row, column = np.mgrid[:128, :128] + 0.5
+    inside = np.hypot(row - 60, column - 64) < 48
+    truth = mixture_of(child.render(replace(apart, quality=quality(128))), lights, ambient)
+
+    def error(light: LightPasses | None) -> float:
+        assert light is not None
+        return float(np.sqrt(((light.diffuse - truth.diffuse)[inside] ** 2).mean()))
+
+    together = child.render(replace(apart, mixed_with=ambient)).mixture
+    assert error(together) < 1.1 * error(mixture_of(child.render(apart), lights, ambient))
 
 
 @pytest.mark.parametrize("canvas", [Canvas(120, 75), Canvas(75, 121)])
@@ -277,6 +337,7 @@ def test_child_ends_with_a_parent_that_was_killed(stopped: bool) -> None:
     code = """
 import threading, time
 from lampblack.render.client import RenderChild
+from lampblack.render.passes import LightPasses, Passes
 child = RenderChild()
 starter = threading.Thread(target=child.start)
 starter.start()

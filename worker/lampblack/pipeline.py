@@ -16,12 +16,15 @@ from numpy.typing import NDArray
 from .cache import ArrayCache
 from .choices import DeviceChoice, GlowName, PipelineOptions
 from .composite import composite
+from .composite.shading import needs_each_light
 from .drawing import Drawing, DrawingPlanes
+from .materials import MaterialTable
 from .normals.temporal.temporal_filter import LazyNeighbours
 from .preparation import prepare, prepare_quick
 from .prepared import PreparedDrawing
 from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
 from .render.light_pass_cache import LightPassCache
+from .render.request import as_mixture, mixable
 from .scene import Hint, LayerBody, Scene
 from .surface_maker import Predictor, Progress, SurfaceMaker, no_progress
 
@@ -134,20 +137,35 @@ class Pipeline:
         return prepare_quick(self.surfaces.predictor, planes, digest, choices)
 
     def light(
-        self, prepared: PreparedDrawing, scene: Scene, surface: Surface | None = None
+        self,
+        prepared: PreparedDrawing,
+        scene: Scene,
+        surface: Surface | None = None,
+        *,
+        mixed: bool = False,
     ) -> Passes:
         """Trace the lights of ``scene``, except those that the last call traced on the same
-        drawing. ``surface`` is used if given: then one thread can trace while another prepares the
-        next surface."""
+        drawing.
 
-        def trace(asked: Scene, ambient: bool, glows: Collection[GlowName]) -> Passes:
+        Args:
+            surface: used if given: then one thread can trace while another prepares the next one.
+            mixed: the composite of these passes is all that is wanted of them. Unless it tells
+                lights apart, they and the ambient light are then traced as one, at lower cost.
+        """
+
+        def request(asked: Scene, glows: Collection[GlowName]) -> RenderRequest:
             stride = QUALITIES[asked.quality].mesh_stride
             found = surface or prepared.surface(asked, stride)
-            request = frame_request(prepared.size, found, asked)
-            request = replace(request, ambient=ambient, glows=glows)
-            return self.renderer.render(request)
+            return replace(frame_request(prepared.size, found, asked), glows=glows)
 
-        return self._light_passes.complete(prepared.layers, scene, trace, prepared.glows(scene))
+        def trace(asked: Scene, ambient: bool, glows: Collection[GlowName]) -> Passes:
+            return self.renderer.render(replace(request(asked, glows), ambient=ambient))
+
+        glows = prepared.glows(scene)
+        materials = MaterialTable.of(scene, prepared.palette.colours)
+        if mixed and mixable(scene.lights) and not needs_each_light(scene, materials):
+            return self.renderer.render(as_mixture(request(scene, glows), scene))
+        return self._light_passes.complete(prepared.layers, scene, trace, glows)
 
     def render(
         self, drawing: Drawing, scene: Scene, neighbours: LazyNeighbours | None = None
@@ -157,6 +175,6 @@ class Pipeline:
         prepared = self.prepare(
             drawing, neighbours, hints=(*scene.depth.drawn, *scene.depth.colours)
         )
-        passes = self.light(prepared, scene)
+        passes = self.light(prepared, scene, mixed=True)
         edges, form = prepared.edges_for(scene), prepared.form_for(scene)
         return composite(drawing, passes, scene, edges=edges, form=form)

@@ -64,11 +64,11 @@ def _frame(picture: NDArray[np.uint8], scene: Scene, *, reference: bool) -> dict
             edges, form = prepared.edges_for(scene), prepared.form_for(scene)
             return composite(drawing, passes, scene, edges=edges, form=form)
 
-        passes = cost.of("render", lambda: pipeline.light(prepared, scene, surface))
+        passes = cost.of("render", lambda: pipeline.light(prepared, scene, surface, mixed=True))
         result = cost.of("composite", lambda: composited(passes))
         figures = cost.figures()
         begin = time.perf_counter()
-        composited(pipeline.light(prepared, _moved(scene), surface))
+        composited(pipeline.light(prepared, _moved(scene), surface, mixed=True))
         figures["seconds_relight"] = time.perf_counter() - begin
         if reference:
             request = replace(frame_request(drawing.size, surface, scene), quality=REFERENCE)

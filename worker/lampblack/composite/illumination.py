@@ -156,15 +156,18 @@ class Illumination:
 
 def weigh(passes: Passes, scene: Scene) -> list[Source]:
     """The sources that shine, each with its weight: colour times power."""
-    found = [
-        Source(hex_linear(light.colour) * np.float32(light.power), traced, Link.of(light))
-        for light, traced, shines in zip(
-            scene.lights, passes.lights, shining(scene.lights), strict=True
-        )
-        if shines
-    ]
-    ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
-    found.append(Source(ambient, passes.ambient))
+    if passes.mixture is not None:
+        found = [Source(np.ones(3, np.float32), passes.mixture)]
+    else:
+        found = [
+            Source(hex_linear(light.colour) * np.float32(light.power), traced, Link.of(light))
+            for light, traced, shines in zip(
+                scene.lights, passes.lights, shining(scene.lights), strict=True
+            )
+            if shines
+        ]
+        ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+        found.append(Source(ambient, passes.ambient))
     for glow in get_args(GlowName):
         if (traced := getattr(passes, glow)) is not None:
             found.append(Source(glow_weight(glow, scene), traced, is_glow=True))

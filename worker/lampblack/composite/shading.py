@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..materials import MaterialTable
-from ..scene import Scene
+from ..scene import Look, Scene
 from .blur import blurred
 from .illumination import Illumination
 from .linking import Link
@@ -57,9 +57,8 @@ class Shading:
             area: what the light on the character covers, in pixels of the drawing.
         """
         look = scene.look
-        lit = materials.diffuse | materials.glossy
         tones = None
-        if (materials.cel & lit).any() or (look.shade_strength and materials.diffuse.any()):
+        if _needs_tones(look, materials):
             shine = bool((materials.cel & materials.glossy).any())
             tones = tones_of(illumination, scene, pixel, area, shine=shine)
         ratio = illumination.floor_ratio
@@ -73,6 +72,19 @@ class Shading:
         if look.tones:
             parts = tuple((link, toned_part(d, link, scene, area), g) for link, d, g in parts)
         return Shading(illumination, materials, tones, ratio, contact, rim, look.ink_light, parts)
+
+
+def needs_each_light(scene: Scene, materials: MaterialTable) -> bool:
+    """Whether the composite tells the sources of ``scene`` apart: their sum is not enough for it.
+    Glossy paint reflects less of ambient light than of other light."""
+    linked = any(Link.of(light) is not None for light in scene.lights)
+    own = linked or bool(materials.gloss.any()) or scene.look.contact > 0
+    return own or _needs_tones(scene.look, materials)
+
+
+def _needs_tones(look: Look, materials: MaterialTable) -> bool:
+    cel = materials.cel & (materials.diffuse | materials.glossy)
+    return bool(cel.any() or (look.shade_strength and materials.diffuse.any()))
 
 
 def _contact(openness: Floats, strength: float, scene: Scene, area: Box) -> Floats:

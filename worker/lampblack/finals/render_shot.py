@@ -155,7 +155,9 @@ class _Run:
             if self.full is not None:
                 return Failed(task.frames, self.full)
             try:
-                passes = self.pipeline.light(task.prepared, task.scene, task.surface)
+                passes = self.pipeline.light(
+                    task.prepared, task.scene, task.surface, mixed=task.mixed
+                )
                 return Traced(task, passes)
             except RenderError as error:
                 self.check()

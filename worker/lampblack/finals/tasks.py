@@ -17,7 +17,7 @@ from ..prepared import PreparedDrawing
 from ..render import QUALITIES, Passes, Surface
 from ..scene import Canvas, Scene, encode_scene
 from ..shot import Cel, Picture, ShotFrame, by_drawing
-from ..timeline import scene_at
+from ..timeline import is_keyed, scene_at
 from ..warning_collector import collect_warnings
 from .hint_loader import HintLoader
 from .neighbours import NeighbourLoader
@@ -60,6 +60,8 @@ class Ready:
     Attributes:
         scene: in the cel's pixels.
         surface: the relief of ``prepared`` with the materials of ``scene``.
+        mixed: whether lights may be traced as one: nothing but the picture is wanted of them, and
+            none of them moves on its own from frame to frame.
         warnings: warnings from preparing the drawing, if warnings are collected.
     """
 
@@ -67,6 +69,7 @@ class Ready:
     scene: Scene
     prepared: PreparedDrawing
     surface: Surface
+    mixed: bool
     warnings: Sequence[str] = ()
 
 
@@ -122,6 +125,7 @@ class _Planner:
         self._pins = PinLoader(job.shot, self._neighbours)
         self._made_by = digest(__version__, job.options, _weights())
         self._canvas: Canvas | None = None
+        self._keyed = False
 
     def group(self, frames: Sequence[ShotFrame]) -> Generator[RenderTask, None, None]:
         """The tasks of frames that share a drawing; files that are up to date come first."""
@@ -180,7 +184,9 @@ class _Planner:
             return [Blank(all_frames, cel.pixels, error)]
         except LampblackError as error:
             return [Failed(all_frames, error)]
-        first = Ready(lightings[0].frames, scene, prepared, surface, tuple(collected))
+        whole = self._job.targets.kind == "png" and self._job.targets.apart == "none"
+        mixed = whole and not self._keyed
+        first = Ready(lightings[0].frames, scene, prepared, surface, mixed, tuple(collected))
         rest = [
             replace(first, frames=lighting.frames, scene=lighting.scene, warnings=())
             for lighting in lightings[1:]
@@ -190,6 +196,7 @@ class _Planner:
     def _scene(self, frame: ShotFrame, canvas: Canvas) -> Scene:
         """The scene of ``frame``, in canvas pixels."""
         scene = self._job.overrides.scene(canvas)
+        self._keyed = is_keyed(scene)
         if self._canvas is None:
             self._canvas = scene.canvas
         expected = self._canvas

@@ -8,9 +8,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..colour import hex_linear
-from ..scene import AreaLight
-from .stage import AMBIENT_SHEEN, Stage
+from .lights import AMBIENT_SHEEN
+from .stage import Stage
 from .wire import SaveBlend
 
 Floats = NDArray[np.float32]
@@ -37,11 +36,12 @@ def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit
     stage.set_subject("character")
     objects = stage.scene.collection.objects
     bpy.data.objects.remove(objects["twin"])
-    for number, light in enumerate(job.lights, start=1):
-        _place_light(stage, objects[light.kind], light, job, light.name or f"light {number}")
-    for kind in ("lamp", "sun"):
-        bpy.data.objects.remove(objects[kind])
-    _set_ambient(stage, job)
+    lamps = stage.set_sources(job.lights, job.ambient, job.canvas)
+    for unused in [thing for thing in objects if thing.type == "LIGHT" and thing.hide_render]:
+        bpy.data.objects.remove(unused)
+    for number, (light, lamp) in enumerate(zip(job.lights, lamps, strict=True), start=1):
+        lamp.name = lamp.data.name = light.name or f"light {number}"
+    stage.scene.world.name = f"ambient, {AMBIENT_SHEEN:.0%} to glossy rays"
     _assign_materials(objects["figure"], ink, diffuse, unlit, job)
     floor = objects["floor"]
     if job.floor is None:
@@ -53,31 +53,6 @@ def save_blend(stage: Stage, job: SaveBlend, ink: Floats, diffuse: Floats, unlit
     _set_render(stage.scene)
     bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside it
     bpy.ops.wm.save_as_mainfile(filepath=job.path, copy=True, compress=True)
-
-
-def _place_light(stage: Stage, made: Any, light: AreaLight, job: SaveBlend, name: str) -> None:
-    stage.set_source(light, job.canvas)
-    copy = made.copy()
-    copy.data = made.data.copy()
-    copy.name = copy.data.name = name
-    copy.hide_render = False
-    copy.data.color = hex_linear(light.colour)
-    copy.data.energy *= light.power
-    stage.scene.collection.objects.link(copy)
-
-
-def _set_ambient(stage: Stage, job: SaveBlend) -> None:
-    """Set the world to the ambient light's colour, dimmed for glossy rays as in all renders."""
-    tree = stage.scene.world.node_tree
-    background = tree.nodes["Background"].inputs
-    dim = background["Color"].links[0].from_socket
-    tint = tree.nodes.new("ShaderNodeVectorMath")
-    tint.operation = "SCALE"
-    tint.inputs[0].default_value = hex_linear(job.ambient.colour)
-    tree.links.new(dim, tint.inputs["Scale"])
-    tree.links.new(tint.outputs[0], background["Color"])
-    background["Strength"].default_value = job.ambient.strength
-    stage.scene.world.name = f"ambient, {AMBIENT_SHEEN:.0%} to glossy rays"
 
 
 def _assign_materials(

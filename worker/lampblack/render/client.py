@@ -15,6 +15,7 @@ import warnings
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from io import FileIO
 from pathlib import Path
 from types import TracebackType
@@ -37,6 +38,7 @@ from .wire import (
     Array,
     Failed,
     Load,
+    Mixture,
     SaveBlend,
     Started,
     Trace,
@@ -108,7 +110,8 @@ class RenderChild:
         self.close()
 
     def render(self, request: RenderRequest) -> Passes:
-        """Trace every light of ``request``, and the ambient light and emitters if it asks for them.
+        """Trace every light of ``request``, and the ambient light and emitters if it asks for them;
+        or all lights and the ambient light as one.
 
         The surface is sent only if it differs from the last one. Without ambient light, its pass
         is 1 x 1 zeros.
@@ -117,11 +120,16 @@ class RenderChild:
             RenderError: the child failed or died; rendering again starts a new one.
         """
         with self._conversation(request.surface):
-            lights = tuple(self._trace(request, light) for light in request.lights)
-            ambient = self._trace(request, None) if request.ambient else DARK
             shining = [glow for glow in request.glows if glow in request.surface.emitters]
-            glows = {glow: self._trace(request, None, glow) for glow in shining}
-            return Passes(lights, ambient, **glows, device=self._on.device)
+            glows = {glow: self._trace(request, glow=glow) for glow in shining}
+            mixture = None
+            if request.mixed_with is not None:
+                together = Mixture(request.lights, request.mixed_with)
+                mixture = self._trace(request, mixture=together)
+                request = replace(request, lights=(), ambient=False)
+            lights = tuple(self._trace(request, light) for light in request.lights)
+            ambient = self._trace(request) if request.ambient else DARK
+            return Passes(lights, ambient, **glows, mixture=mixture, device=self._on.device)
 
     def accumulate(self, surface: Surface, job: Accumulate) -> tuple[NDArray[np.float32], ...]:
         """Trace more samples of one source; see ``Accumulate``.
@@ -330,12 +338,15 @@ class RenderChild:
         self._surface = surface
 
     def _trace(
-        self, request: RenderRequest, light: AreaLight | None, glow: GlowName | None = None
+        self,
+        request: RenderRequest,
+        light: AreaLight | None = None,
+        glow: GlowName | None = None,
+        mixture: Mixture | None = None,
     ) -> LightPasses:
-        arrays = self._ask(
-            Trace(request.canvas, request.view, light, request.floor, request.quality, glow)
-        )
-        return LightPasses(*arrays)
+        place = request.canvas, request.view
+        job = Trace(*place, light, request.floor, request.quality, glow, mixture)
+        return LightPasses(*self._ask(job))
 
     def _ask(
         self, job: Trace | Accumulate | SaveBlend, arrays: Iterable[Array] = ()

@@ -45,6 +45,8 @@ class Passes:
         ambient: the ambient light of strength 1.
         emission: emissive colours, the brightest of them with an emission of 1; None without any.
         painted: painted light of power 1; None without any.
+        mixture: all lights and the ambient light in their colours and powers, traced as one. Then
+            ``lights`` is empty and ``ambient`` dark.
         device: what traced all of it.
     """
 
@@ -52,4 +54,5 @@ class Passes:
     ambient: LightPasses
     emission: LightPasses | None = None
     painted: LightPasses | None = None
+    mixture: LightPasses | None = None
     device: DeviceKind = "cpu"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 
@@ -43,6 +43,12 @@ class Quality:
     floor: Sampling
     mesh_stride: int
     denoise: Literal["fast", "high"] = "fast"
+
+    def mixture(self, lights: int) -> Sampling:
+        """For so many lights and the ambient light traced as one. Each path meets one of the
+        lights, and the ambient light for nothing. As measured, two lights have as little noise
+        with 0.7 of the samples that they need apart."""
+        return replace(self.light, spp=max(self.ambient.spp, 7 * self.light.spp * lights // 10))
 
 
 QUALITIES: dict[str, Quality] = {

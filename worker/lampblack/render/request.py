@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from ..choices import GlowName
 from ..colour import linear
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
-from ..scene import AreaLight, Canvas, Floor, Scene
+from ..scene import Ambient, AreaLight, Canvas, Floor, Scene, shining
 from ..surface.relief import Relief
 from .emitters import Emitter
 from .quality import QUALITIES, Quality
@@ -53,6 +53,7 @@ class RenderRequest:
         rect: part of the canvas to trace, (x, y, width, height) in canvas pixels; None for all.
         quality: resolution and samples.
         glows: trace the light of these emitters of the surface as well.
+        mixed_with: trace ``lights`` and this ambient light as one, in their colours and powers.
     """
 
     surface: Surface
@@ -63,6 +64,7 @@ class RenderRequest:
     rect: tuple[float, float, float, float] | None = None
     quality: Quality = QUALITIES["low"]
     glows: Collection[GlowName] = ()
+    mixed_with: Ambient | None = None
 
     @property
     def view(self) -> tuple[float, float, float, float]:
@@ -82,6 +84,24 @@ def frame_request(size: tuple[int, int], surface: Surface, scene: Scene) -> Rend
         floor=scene.floor,
         rect=None if whole else (0.0, 0.0, float(width), float(height)),
         quality=QUALITIES[scene.quality],
+    )
+
+
+def mixable(lights: Sequence[AreaLight]) -> bool:
+    """Whether ``lights`` can be traced as one: all of them cast shadows, and none is a sun beside
+    others, since Cycles' light tree then loses up to a twentieth of its light."""
+    alone = len(lights) < 2
+    return all(light.casts_shadow and (alone or light.kind == "lamp") for light in lights)
+
+
+def as_mixture(request: RenderRequest, scene: Scene) -> RenderRequest:
+    """``request`` for all lights of ``scene`` and its ambient light, traced as one."""
+    shown = zip(scene.lights, shining(scene.lights), strict=True)
+    return replace(
+        request,
+        lights=tuple(light for light, shines in shown if shines and light.power),
+        ambient=False,
+        mixed_with=scene.ambient,
     )
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import bpy
@@ -16,17 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..choices import GlowName
-from ..scene import AreaLight, Canvas, Floor
+from ..scene import Ambient, AreaLight, Canvas, Floor
 from .cards import use_card
 from .device import Card
 from .glow import add_emitter, remove_emitter
+from .lights import Lights, to_blender
 from .quality import Sampling
 from .spent import spent_on
 
 CAMERA_HEIGHT = 60.0
 FLOOR_REACH = 200.0
 FLOOR_ALBEDO = 0.6
-AMBIENT_SHEEN = 0.2  # full reflections of a white surrounding would whiten every glossy colour
 ALBEDO_RANGE = 0.03, 0.9  # not 0: Cycles divides light by it; not 1: reflections would not fade
 PASSES = (
     "diffuse_direct",
@@ -71,23 +72,12 @@ class Stage:
         _set_visible(self._twin, "")
         self._floor = self._add("floor", _floor_mesh())
         self._floor_places = {"standing": (0.0, 0.0, 0.0), "sunk": (0.0, 0.0, 0.0)}
-        lamp = bpy.data.lights.new("lamp", "AREA")
-        lamp.shape = "DISK"
-        lamp.normalize = False
-        self._lamp = self._add("lamp", lamp)
-        self._lamp.visible_camera = False
-        self._sun = self._add("sun", bpy.data.lights.new("sun", "SUN"))
-        self._sun.data.energy = math.pi  # lights a facing surface to an irradiance of pi
-        self._sun.hide_render = True
         camera = bpy.data.cameras.new("camera")
         camera.type = "ORTHO"
         camera.clip_end = 2 * CAMERA_HEIGHT + FLOOR_REACH
         self._camera = self._add("camera", camera)
         self.scene.camera = self._camera
-        self.scene.world = bpy.data.worlds.new("ambient")
-        # Sampled by bounces only: shadow rays would pass through the floor.
-        self.scene.world.cycles.sampling_method = "NONE"
-        self._ambient = _ambient_strength(self.scene.world.node_tree)
+        self._lights = Lights(self.scene)
 
     def set_surface(self, relief: Arrays, emitters: Mapping[GlowName, Arrays]) -> None:
         """Set the relief and the emitters, in canvas pixels, as ``wire.Load`` has their arrays.
@@ -109,10 +99,17 @@ class Stage:
         for glow in self._glows.values():
             remove_emitter(glow)
         self._glows = {
-            name: add_emitter(self._add, name, _to_blender(arrays[0], canvas), *arrays[1:])
+            name: add_emitter(self._add, name, to_blender(arrays[0], canvas), *arrays[1:])
             for name, arrays in self._emitters.items()
         }
         self._canvas = canvas
+
+    def character_box(self) -> Floats:
+        """(2, 2): left and top, right and bottom of the relief, canvas pixels; 0 if it is empty."""
+        if self._surface is None or not len(self._surface[0]):
+            return np.zeros((2, 2), np.float32)
+        places = self._surface[0][:, :2]
+        return np.stack([places.min(axis=0), places.max(axis=0)])
 
     def set_floor(self, floor: Floor | None, canvas: Canvas) -> None:
         """Hinge the floor at its line, pitched towards the viewer; None removes it."""
@@ -124,7 +121,7 @@ class Stage:
             _, y, z = self._surface[0].T
             above = (floor.y - y) * math.cos(pitch) + z * math.sin(pitch)
             depth = min(0.0, float(above.min()) / canvas.default_height)
-        hinge = float(_to_blender(np.array([[0, floor.y, 0]], np.float32), canvas)[0, 1])
+        hinge = float(to_blender(np.array([[0, floor.y, 0]], np.float32), canvas)[0, 1])
         self._floor_places = {
             "standing": (0.0, hinge, 0.0),
             "sunk": (0.0, hinge + depth * math.cos(pitch), depth * math.sin(pitch)),
@@ -137,7 +134,7 @@ class Stage:
         """Aim the camera at ``view`` (x, y, width, height, canvas pixels), ``size`` pixels."""
         x, y, width, height = view
         centre = np.array([[x + width / 2, y + height / 2, 0]], np.float32)
-        self._camera.location = (*_to_blender(centre, canvas)[0, :2], CAMERA_HEIGHT)
+        self._camera.location = (*to_blender(centre, canvas)[0, :2], CAMERA_HEIGHT)
         self._camera.data.ortho_scale = max(width, height) / canvas.default_height
         render = self.scene.render
         render.resolution_x, render.resolution_y = size
@@ -150,25 +147,24 @@ class Stage:
     ) -> None:
         """Turn on one source: a white area light or sun of power 1, an emitter, or the ambient
         light."""
-        self._shadows = light is None or light.casts_shadow
+        lights = [] if light is None else [replace(light, colour="#ffffff", power=1.0)]
+        ambient = Ambient(strength=float(light is None and glow is None))
         for name, emitter in self._glows.items():
             emitter.hide_render = name != glow
         self._glow = glow
-        self._lamp.hide_render = light is None or light.kind != "lamp"
-        self._sun.hide_render = light is None or light.kind != "sun"
-        self._ambient.default_value = float(light is None and glow is None)
-        if light is None:
-            return
-        at = _to_blender(np.array([[light.x, light.y, light.z]], np.float32), canvas)[0]
-        radius = light.size / 2 / canvas.default_height
-        if light.kind == "sun":
-            _set_sun(self._sun, at, radius)
-            return
-        self._lamp.location = at
-        self._lamp.rotation_euler = (math.pi if light.z < 0 else 0, 0, 0)
-        self._lamp.data.size = 2 * radius
-        # Radiance that lights a facing surface at distance 1 to an irradiance of pi.
-        self._lamp.data.energy = math.pi * (radius**2 + 1) / radius**2
+        self._shadows = light is None or light.casts_shadow
+        self._lights.shine(lights, ambient, canvas)
+
+    def set_sources(
+        self, lights: Sequence[AreaLight], ambient: Ambient, canvas: Canvas
+    ) -> list[Any]:
+        """Turn on all of ``lights`` and the ambient light, in their colours and powers. All of them
+        cast shadows. Returns Blender's objects of the lights."""
+        for emitter in self._glows.values():
+            emitter.hide_render = True
+        self._glow = None
+        self._shadows = True
+        return self._lights.shine(lights, ambient, canvas)
 
     def set_subject(self, subject: Literal["character", "floor", "bare floor"]) -> None:
         """Choose what the camera sees. The other part is invisible but still reflects light.
@@ -231,35 +227,6 @@ def threads() -> int:
     return os.cpu_count() or 1
 
 
-def _ambient_strength(tree: Any) -> Any:
-    """Make the world white, and ``AMBIENT_SHEEN`` for glossy rays. Returns the socket of its
-    strength."""
-    background = tree.nodes["Background"].inputs
-    path, white = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMath")
-    white.operation = "MULTIPLY_ADD"
-    tree.links.new(path.outputs["Is Glossy Ray"], white.inputs[0])
-    white.inputs[1].default_value = AMBIENT_SHEEN - 1
-    white.inputs[2].default_value = 1
-    tree.links.new(white.outputs[0], background["Color"])
-    return background["Strength"]
-
-
-def _set_sun(sun: Any, at: Floats, radius: float) -> None:
-    """Let ``sun`` shine from the disk at ``at`` towards the origin; from the front, if it is there.
-    Cycles lights a facing surface alike for all angles up to half of the sky."""
-    distance = float(np.linalg.norm(at))
-    x, y, z = (0.0, 0.0, 1.0) if distance < 1e-6 else (at / distance).tolist()
-    sun.rotation_euler = (-math.asin(min(1.0, max(-1.0, y))), math.atan2(x, z), 0)
-    sun.data.angle = 2 * math.atan2(radius, distance)
-
-
-def _to_blender(points: Floats, canvas: Canvas) -> Floats:
-    """(N, 3) canvas pixels to Blender's frame."""
-    centre = np.array([canvas.width / 2, canvas.height / 2, 0], np.float32)
-    flip = np.array([1, -1, 1], np.float32)
-    return ((points - centre) * flip / np.float32(canvas.default_height)).astype(np.float32)
-
-
 def _set_visible(thing: Any, rays: str) -> None:
     """Set visibility for camera, diffuse, glossy and shadow rays, by initial.
 
@@ -280,7 +247,7 @@ def _character_mesh(surface: Arrays, canvas: Canvas) -> Any:
         return mesh
     mesh.vertices.add(len(vertices))
     # Setting the attribute is a hundred times faster than setting the vertices.
-    mesh.attributes["position"].data.foreach_set("vector", _to_blender(vertices, canvas).ravel())
+    mesh.attributes["position"].data.foreach_set("vector", to_blender(vertices, canvas).ravel())
     mesh.loops.add(faces.size)
     mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(faces).ravel())
     mesh.polygons.add(len(faces))

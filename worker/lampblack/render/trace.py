@@ -28,12 +28,15 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
     """
     stage.set_canvas(job.canvas)
     stage.set_floor(job.floor, job.canvas)
-    stage.set_source(job.light, job.canvas, job.glow)
-    sampling = job.quality.ambient if job.light is None else job.quality.light
+    if job.mixture is not None:
+        stage.set_sources(job.mixture.lights, job.mixture.ambient, job.canvas)
+        sampling = job.quality.mixture(len(job.mixture.lights))
+    else:
+        stage.set_source(job.light, job.canvas, job.glow)
+        sampling = job.quality.ambient if job.light is None else job.quality.light
     stage.set_sampling(sampling)
-    stage.set_view(job.view, sampling.size(*job.view[2:]), job.canvas)
     stage.set_subject("character")
-    diffuse, glossy = character_light(render_passes(stage.scene), denoiser, job.quality.denoise)
+    diffuse, glossy = _of_character(stage, denoiser, job, sampling.size(*job.view[2:]))
     if job.floor is None:
         return LightPasses(diffuse, glossy)
     stage.set_sampling(job.quality.floor)
@@ -43,6 +46,25 @@ def trace(stage: Stage, denoiser: Denoiser, job: Trace) -> LightPasses:
         return LightPasses(diffuse, glossy, light, light)
     cast, free = (floor_passes(stage, subject) for subject in ("floor", "bare floor"))
     return LightPasses(diffuse, glossy, *floor_light(cast, free, denoiser, job.quality.denoise))
+
+
+def _of_character(
+    stage: Stage, denoiser: Denoiser, job: Trace, size: tuple[int, int]
+) -> tuple[Floats, Floats]:
+    """Diffuse and glossy light of ``size`` (columns, rows). Only the box of the character is
+    rendered, and continued past its edges."""
+    view, whole = np.array(job.view), np.array(size)
+    step = view[2:] / whole
+    low, high = (stage.character_box() - view[:2]) / step
+    first = np.clip(np.floor(low).astype(int), 0, whole - 1)
+    last = np.clip(np.ceil(high).astype(int), first + 1, whole)
+    (left, top), (right, bottom) = first.tolist(), last.tolist()
+    x, y, width, height = np.concatenate([view[:2] + first * step, (last - first) * step]).tolist()
+    stage.set_view((x, y, width, height), (right - left, bottom - top), job.canvas)
+    found = character_light(render_passes(stage.scene), denoiser, job.quality.denoise)
+    around = (top, size[1] - bottom), (left, size[0] - right), (0, 0)
+    diffuse, glossy = (np.pad(light, around, "edge") for light in found)
+    return diffuse, glossy
 
 
 def character_light(

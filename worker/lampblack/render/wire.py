@@ -47,9 +47,16 @@ class Load(msgspec.Struct, tag=True):
     emitters: tuple[GlowName, ...] = ()
 
 
+class Mixture(msgspec.Struct, frozen=True):
+    """Lights, which all cast shadows, and the ambient light, in their colours and powers."""
+
+    lights: tuple[AreaLight, ...]
+    ambient: Ambient
+
+
 class Trace(msgspec.Struct, tag=True):
-    """Trace one source: ``light``, or the emitter ``glow``, or the ambient light if both are None.
-    Answered by Traced or Failed."""
+    """Trace one source: ``light``, or the emitter ``glow``, or ``mixture`` as one, or the ambient
+    light if all are None. Answered by Traced or Failed."""
 
     canvas: Canvas
     view: tuple[float, float, float, float]
@@ -57,6 +64,7 @@ class Trace(msgspec.Struct, tag=True):
     floor: Floor | None
     quality: Quality
     glow: GlowName | None = None
+    mixture: Mixture | None = None
 
 
 class Accumulate(msgspec.Struct, tag=True):

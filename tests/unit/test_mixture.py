@@ -1,0 +1,90 @@
+"""Lights that are traced as one: the same picture, and only where nobody tells them apart."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lampblack.colour import hex_linear
+from lampblack.composite import composite
+from lampblack.composite.byte_layers import byte_layers_of
+from lampblack.composite.shading import needs_each_light
+from lampblack.drawing.decompose import decompose_drawing
+from lampblack.materials import MaterialTable
+from lampblack.render.passes import DARK, LightPasses, Passes
+from lampblack.render.request import RenderRequest, as_mixture, mixable
+from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Look, Material, Scene
+from support.drawings import draw_ball
+from support.surfaces import plane
+
+SIZE = 48
+LIGHTS = (
+    AreaLight(5, 5, 30, colour="#ffd0a0", power=0.7),
+    AreaLight(40, 8, 30, colour="#80a0ff", power=0.4),
+)
+
+
+def lit() -> Scene:
+    return Scene(Canvas(SIZE, SIZE), LIGHTS, Ambient("#e0e8ff", 0.4), floor=Floor(40))
+
+
+def random_light(seed: int) -> LightPasses:
+    found = np.random.default_rng(seed).uniform(0.1, 0.9, (4, SIZE, SIZE, 3)).astype(np.float32)
+    return LightPasses(*found)
+
+
+def mixed(passes: Passes, scene: Scene) -> Passes:
+    """What the renderer gives for all of these lights at once."""
+    weights = [hex_linear(light.colour) * light.power for light in scene.lights]
+    weights.append(hex_linear(scene.ambient.colour) * scene.ambient.strength)
+    sources = list(zip(weights, (*passes.lights, passes.ambient), strict=True))
+    names = ("diffuse", "glossy", "floor", "open_floor")
+    sums = (sum(w * getattr(light, name) for w, light in sources) for name in names)
+    return Passes((), DARK, mixture=LightPasses(*(np.float32(one) for one in sums)))
+
+
+def test_the_picture_is_that_of_the_lights_apart() -> None:
+    drawing, scene = decompose_drawing(draw_ball(SIZE)), lit()
+    apart = Passes((random_light(1), random_light(2)), random_light(3))
+    together = mixed(apart, scene)
+    for layers in (drawing, byte_layers_of(drawing)):
+        one, other = (composite(layers, passes, scene).astype(int) for passes in (apart, together))
+        assert abs(one - other).max() <= 1
+
+
+@pytest.mark.parametrize(
+    ("change", "apart"),
+    [
+        ({}, False),
+        ({"look": Look(tones=(0.5,))}, True),
+        ({"look": Look(contact=0.5)}, True),
+        ({"look": Look(shade_strength=0.5)}, True),
+        ({"look": Look(ink_light=0.5)}, False),
+        ({"default_material": Material(look="cel")}, True),
+        ({"default_material": Material(glossy=True, gloss=0.1)}, True),
+        ({"lights": (replace(LIGHTS[0], colours=("#ff0000",)),)}, True),
+    ],
+)
+def test_lights_stay_apart_where_the_look_needs_them(
+    change: dict[str, object], apart: bool
+) -> None:
+    scene = replace(lit(), **change)  # type: ignore[arg-type]
+    assert needs_each_light(scene, MaterialTable.of(scene, ())) is apart
+
+
+def test_suns_beside_other_lights_and_lights_without_shadows_stay_apart() -> None:
+    sun = replace(LIGHTS[1], kind="sun")
+    assert all(mixable(lights) for lights in ((), LIGHTS, (sun,)))
+    assert not mixable((LIGHTS[0], replace(LIGHTS[1], casts_shadow=False)))
+    assert not mixable((LIGHTS[0], sun))
+    assert not mixable((sun, sun))
+
+
+def test_only_light_that_is_seen_is_traced() -> None:
+    scene = replace(lit(), lights=(replace(LIGHTS[0], on=False), LIGHTS[1]))
+    request = as_mixture(RenderRequest(plane(8, 8), scene.canvas, scene.lights), scene)
+    assert request.lights == (LIGHTS[1],)
+    assert request.mixed_with == scene.ambient
+    assert not request.ambient
