@@ -81,6 +81,8 @@ DEPTH_SCENE = SCENE | {
             {"frame": 0, "brush": "turn", "radius": 1, "amount": 1, "later": [1]}
             | {"points": [{"x": -1.5, "y": 2}, {"x": 100000, "y": -100000, "z": None}]},
             {"frame": 999999},
+            {"frame": 2, "brush": "round"},
+            {"frame": 2, "brush": "hollow"},
         ],
         "colours": [{"colour": "#0a0b0c", "volume": 4, "nearer": -1}, {"colour": "#ffffff"}],
     }

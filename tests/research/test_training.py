@@ -29,9 +29,17 @@ from lampblack_research.training.character_batches import (
     input_and_truth,
     place_on_canvas,
 )
-from lampblack_research.training.character_loss import Batch, angles, pair_losses
+from lampblack_research.training.character_loss import (
+    Batch,
+    angles,
+    bend_loss,
+    bends,
+    mark_loss,
+    pair_losses,
+)
 from lampblack_research.training.checkpoint import Progress
 from lampblack_research.training.curve import SIZE
+from lampblack_research.training.hint_strokes import bent_cells, random_hints
 from lampblack_research.training.normalisation import recompute_statistics
 from lampblack_research.training.tile_batches import normal_loss, view_of
 from lampblack_research.training.train import TrainingOptions, train
@@ -82,6 +90,67 @@ def test_the_loss_of_depth_order_prefers_the_right_side_in_front() -> None:
     assert float(pair_losses(-plane, plane, inside)[1]) == 0
     inside[..., 4:] = False
     assert pair_losses(-truth, truth, inside)[0] == 0
+
+
+def dome(side: int, sign: int) -> NDArray[np.float32]:
+    """(side, side, 3) normals of a dome as wide as the canvas, or of a bowl."""
+    y, x = (np.indices((side, side), np.float32) + 0.5) / side * 2 - 1
+    normals = np.dstack([sign * x / 2, -sign * y / 2, np.sqrt(1 - (x * x + y * y) / 4)])
+    return normals.astype(np.float32)
+
+
+def test_bends_of_a_dome_and_of_a_bowl_have_their_closed_form() -> None:
+    found, truth = (
+        torch.from_numpy(np.stack([dome(64, sign).transpose(2, 0, 1)])) for sign in (1, -1)
+    )
+    # The normal's x is x / 2 over a half side of 1, so per side it is 1; y alike.
+    assert bends(found, 64.0)[0, 2:-2, 2:-2].numpy() == pytest.approx(2.0, abs=1e-4)
+    assert bends(truth, 64.0)[0, 2:-2, 2:-2].numpy() == pytest.approx(-2.0, abs=1e-4)
+    mask = torch.zeros(1, 64, 64)
+    mask[:, 4:-4, 4:-4] = 1
+    right, wrong = float(bend_loss(truth, truth, mask)), float(bend_loss(found, truth, mask))
+    assert right == pytest.approx(np.log1p(np.exp(-2)), abs=0.02)
+    assert wrong == pytest.approx(np.log1p(np.exp(2)), abs=0.02)
+
+
+def test_hints_lie_where_the_surface_bends_as_they_say() -> None:
+    normals = np.concatenate([dome(64, 1), dome(64, -1)], axis=1)
+    bent = bent_cells(normals, np.ones((64, 128), bool))
+    assert set(np.unique(bent[2:-2, 2:12])) == {1}
+    assert set(np.unique(bent[2:-2, -12:-2])) == {-1}
+    seen = set()
+    for seed in range(20):
+        hints = random_hints(bent, np.random.default_rng(seed))
+        assert (np.sign(hints) == bent)[hints != 0].all()
+        assert 0 < np.count_nonzero(hints) < 0.5 * hints.size
+        seen |= set(np.unique(np.sign(hints)))
+    assert seen == {-1, 0, 1}
+
+
+def test_only_cells_with_ink_teach_what_a_mark_is() -> None:
+    truth = torch.full((1, 4, 4), -1.0)
+    truth[0, 0], truth[0, 1] = 0, 1
+    right = torch.where(truth > 0, 9.0, -9.0)
+    elsewhere = torch.where(truth < 0, 50.0, right)
+    assert float(mark_loss(right, truth)) == pytest.approx(0, abs=1e-3)
+    assert float(mark_loss(elsewhere, truth)) == float(mark_loss(right, truth))
+    assert float(mark_loss(-right, truth)) == pytest.approx((9 + 3 * 9) / 2, abs=1e-2)
+    assert float(mark_loss(right, torch.full((1, 4, 4), -1.0))) == 0
+
+
+def test_marks_are_told_from_lines_by_cell(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lampblack_research.training.character_batches.MARKED", 1.0)
+    triple = one_triple(data)
+    found = 0
+    for seed in range(6):
+        character = place_on_canvas(triple, np.random.default_rng(seed), [128])
+        for ink, kinds in zip(character.inks, character.marks, strict=True):
+            drawn = by_cell((ink > 0).astype(np.float32)) > 0
+            assert drawn[kinds >= 0].all()
+            found += np.count_nonzero(kinds == 1)
+        *_, truth = input_and_truth(character, np.random.default_rng(seed))
+        assert truth.shape[0] == 4
+    assert found > 50
 
 
 def test_whole_characters_mirror_every_map_with_the_drawing(data: Path) -> None:

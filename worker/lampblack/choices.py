@@ -33,8 +33,9 @@ FrontSide = Literal["left", "right", "joined"]
 LightKind = Literal["lamp", "sun"]
 """A lamp is a disk of light at its place; a sun shines from there on the whole canvas alike."""
 
-Brush = Literal["bump", "dent", "turn"]
-"""What a stroke does to the surface: raise it, lower it, or turn it to where the stroke goes."""
+Brush = Literal["bump", "dent", "turn", "round", "hollow"]
+"""What a stroke does to the surface: raise it, lower it, or turn it to where the stroke goes; or
+say that it is round there, or hollow."""
 
 LIGHT_LAYER = "Light"
 """The name of a layer whose paint is light, unless it has the role of a character or a line."""

@@ -1,4 +1,4 @@
-"""What the artist corrects on the surface of a drawing."""
+"""What the artist corrects on the surface of a drawing, after its prediction or in it."""
 
 from __future__ import annotations
 
@@ -9,16 +9,33 @@ from numpy.typing import NDArray
 
 from .drawing import Drawing
 from .hints import scaled_hint
+from .normals.bend_strokes import HOLLOW, ROUND, BendStroke
 from .prepared import block_middles
 from .scene import DepthColour, DepthStroke, Hint
 from .surface import Corrections, character_length, normals_of
+
+BENDS = {"round": ROUND, "hollow": HOLLOW}
+"""The brushes whose strokes the network is told, see ``bend_strokes``."""
+
+
+def bend_strokes(hints: Sequence[Hint]) -> list[BendStroke]:
+    """What ``hints`` tell the network, in their pixels."""
+    return [
+        BendStroke(np.array([(p.x, p.y) for p in hint.points], np.float32), BENDS[hint.brush])
+        for hint in hints
+        if isinstance(hint, DepthStroke) and hint.brush in BENDS and hint.points
+    ]
 
 
 def corrections_of(
     drawing: Drawing, mask: NDArray[np.bool_], hints: Sequence[Hint], step: int
 ) -> Corrections:
     """The corrections of the surface, whose ``mask`` has pixels of ``step`` of the drawing's."""
-    strokes = [scaled_hint(hint, 1 / step) for hint in hints if isinstance(hint, DepthStroke)]
+    strokes = [
+        scaled_hint(hint, 1 / step)
+        for hint in hints
+        if isinstance(hint, DepthStroke) and hint.brush not in BENDS
+    ]
     colours = [hint for hint in hints if isinstance(hint, DepthColour)]
     rows, columns = mask.shape
     labels = block_middles(drawing.labels, step)[:rows, :columns]

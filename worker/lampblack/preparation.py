@@ -64,7 +64,7 @@ def prepare(
         height, overlaps = surfaces.height(drawing, neighbours, hints, progress)
         rows, columns = height.shape
         mask = block_middles(drawing.mask, step)[:rows, :columns]
-    normals = surfaces.normals(drawing, neighbours, progress) if with_normals else None
+    normals = surfaces.normals(drawing, neighbours, hints, progress) if with_normals else None
     if normals is not None:
         normals = corrected_normals(drawing, normals, height, hints, step)
     return PreparedDrawing(

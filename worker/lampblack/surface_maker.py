@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from .cache import ArrayCache, Arrays, digest
 from .choices import DEFAULT_GRIDS, PipelineOptions
-from .corrected import corrections_of
+from .corrected import bend_strokes, corrections_of
 from .drawing import Drawing
 from .drawing.morphology import from_nearest
-from .hints import scaled_hint
+from .hints import hints_by_body, scaled_hint
+from .normals.bend_strokes import BendStroke
 from .normals.predict import NormalPredictor
 from .normals.prediction import Prediction, pack_order, unpack_order
 from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter, body_neighbours
@@ -56,6 +57,7 @@ class Predictor(Protocol):
         *,
         grids: int = DEFAULT_GRIDS,
         quick: bool = False,
+        strokes: Sequence[BendStroke] = (),
         progress: Progress = no_progress,
     ) -> Prediction:
         """The prediction for one drawing; see ``NormalPredictor.predict``."""
@@ -87,16 +89,20 @@ class SurfaceMaker:
         self,
         drawing: Drawing,
         neighbours: LazyNeighbours | None = None,
+        hints: Sequence[Hint] = (),
         progress: Progress = no_progress,
     ) -> NDArray[np.float32]:
         """(H, W, 3) float32 normal map, x right, y up, z to the viewer; 0 outside the mask. With
-        ``neighbours`` it passes the temporal filter. Of several bodies, the topmost is seen."""
+        ``neighbours`` it passes the temporal filter. Of several bodies, the topmost is seen. Of
+        ``hints``, in pixels of the drawing, those of round and hollow parts count."""
         if not drawing.bodies:
-            return self._prediction(drawing, neighbours, progress).normals
+            return self._prediction(drawing, neighbours, hints, progress).normals
         seen = np.zeros((*drawing.mask.shape, 3), np.float32)
-        for body in drawing.bodies:
+        own = hints_by_body(drawing.bodies, hints)
+        for body, own_hints in zip(drawing.bodies, own, strict=True):
             around = body_neighbours(neighbours, body.name)
-            normals, inside = self.normals(body.drawing, around, progress), body.drawing.mask
+            normals = self.normals(body.drawing, around, own_hints, progress)
+            inside = body.drawing.mask
             if body.rim.any():
                 normals, inside = from_nearest(normals, inside), inside | body.rim
             rows, columns = inside.shape
@@ -140,26 +146,43 @@ class SurfaceMaker:
         self,
         drawing: Drawing,
         neighbours: LazyNeighbours | None = None,
+        hints: Sequence[Hint] = (),
         progress: Progress = no_progress,
     ) -> Prediction:
-        """The prediction, its depth and edges at low resolution."""
+        """The prediction, its depth and edges at low resolution. What hints change is added to the
+        steadied prediction without them: neighbours do not know them."""
+        steady = prediction = self._predict(drawing, (), progress)
+        if neighbours is not None:
+            here = _thumbnail(drawing, prediction)
+            steady = self._temporal_filter.smooth_prediction(
+                prediction, drawing.mask, here, neighbours.load()
+            )
+        strokes = bend_strokes(hints)
+        if not strokes:
+            return steady
+        told = self._predict(drawing, strokes, progress)
+        if neighbours is None:
+            return told
+        normals = steady.normals + told.normals - prediction.normals
+        length = np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), np.float32(1e-6))
+        return replace(steady, normals=normals / length)
+
+    def _predict(
+        self, drawing: Drawing, strokes: Sequence[BendStroke], progress: Progress
+    ) -> Prediction:
         grids = self.options.grids
 
         def make() -> Arrays:
             made = self.predictor.predict(
-                drawing.lines, drawing.mask, grids=grids, progress=progress
+                drawing.lines, drawing.mask, grids=grids, strokes=strokes, progress=progress
             )
             return {"normals": made.normals, "order": pack_order(made, drawing.mask)}
 
-        made_from = self.predictor.identity, grids, drawing.lines, drawing.mask
+        made_from = [self.predictor.identity, grids, drawing.lines, drawing.mask]
+        for stroke in strokes:
+            made_from += [stroke.bend, stroke.points]
         stored = self._cache.get(digest("normals", *made_from), make)
-        prediction = unpack_order(stored["normals"], stored["order"], drawing.mask)
-        if neighbours is None:
-            return prediction
-        here = _thumbnail(drawing, prediction)
-        return self._temporal_filter.smooth_prediction(
-            prediction, drawing.mask, here, neighbours.load()
-        )
+        return unpack_order(stored["normals"], stored["order"], drawing.mask)
 
     def _inflate(
         self,
@@ -168,7 +191,8 @@ class SurfaceMaker:
         hints: Sequence[Hint],
         progress: Progress,
     ) -> tuple[NDArray[np.float32], list[Overlap]]:
-        prediction, mask = self._prediction(drawing, neighbours, progress), drawing.mask
+        prediction = self._prediction(drawing, neighbours, hints, progress)
+        mask = drawing.mask
         lines = dividing_lines(drawing.lines, drawing.ink, mask)
         step = surface_step(drawing)
         if step > 1:

@@ -17,7 +17,7 @@ namespace lampblack::protocol
 {
 
 constexpr int Major = 1;
-constexpr int Minor = 3;
+constexpr int Minor = 4;
 
 enum class Role
 {

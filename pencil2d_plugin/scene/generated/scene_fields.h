@@ -19,8 +19,11 @@ constexpr std::array<Choice<FrontSide>, 3> FrontSideChoices = {
 constexpr std::array<Choice<LightKind>, 2> LightKindChoices = {
     {{"lamp", LightKind::Lamp}, {"sun", LightKind::Sun}}};
 
-constexpr std::array<Choice<Brush>, 3> BrushChoices = {
-    {{"bump", Brush::Bump}, {"dent", Brush::Dent}, {"turn", Brush::Turn}}};
+constexpr std::array<Choice<Brush>, 5> BrushChoices = {{{"bump", Brush::Bump},
+                                                        {"dent", Brush::Dent},
+                                                        {"turn", Brush::Turn},
+                                                        {"round", Brush::Round},
+                                                        {"hollow", Brush::Hollow}}};
 
 constexpr std::array<Choice<BodyChoice>, 4> BodyChoiceChoices = {{{"auto", BodyChoice::Auto},
                                                                   {"own", BodyChoice::Own},

@@ -46,7 +46,9 @@ enum class Brush
 {
     Bump,
     Dent,
-    Turn
+    Turn,
+    Round,
+    Hollow
 };
 
 enum class BodyChoice
@@ -270,7 +272,9 @@ struct LayerBody
 /// A stroke of a brush that corrects the surface.
 ///
 /// A bump is a smooth hump along the stroke, a dent a hollow. A turn makes the surface face the way the
-/// stroke goes. Frames before and after `frame` have it too: it is carried along with the drawing.
+/// stroke goes. Round and hollow say how the surface bends along the stroke: it is predicted again with that,
+/// and radius and amount do not matter. Frames before and after `frame` have it too: it is carried along with
+/// the drawing.
 struct DepthStroke
 {
     int frame = 0;                   ///< frame of the animation, 0 to 999999

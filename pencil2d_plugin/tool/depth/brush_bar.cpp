@@ -12,6 +12,24 @@ constexpr int Margin = 6; // pixels
 
 } // namespace
 
+QString nameOf(Brush brush)
+{
+    switch (brush)
+    {
+    case Brush::Bump:
+        return BrushBar::tr("Bump");
+    case Brush::Dent:
+        return BrushBar::tr("Dent");
+    case Brush::Turn:
+        return BrushBar::tr("Turn");
+    case Brush::Round:
+        return BrushBar::tr("Round");
+    case Brush::Hollow:
+        return BrushBar::tr("Hollow");
+    }
+    return {};
+}
+
 BrushBar::BrushBar(QWidget* canvas) : QFrame(canvas)
 {
     setObjectName(QStringLiteral("lampblack.brush_bar"));
@@ -23,9 +41,16 @@ BrushBar::BrushBar(QWidget* canvas) : QFrame(canvas)
     row->setSpacing(1);
     addButton("step", tr("Step"),
               tr("Correct what is in front: click a line, or drag where a step is missing"), {});
-    addButton("bump", tr("Bump"), tr("Drag or click: the surface rises under the brush"), Brush::Bump);
-    addButton("dent", tr("Dent"), tr("Drag or click: the surface sinks under the brush"), Brush::Dent);
-    addButton("turn", tr("Turn"), tr("Drag: the surface turns to where the stroke goes"), Brush::Turn);
+    addButton("bump", nameOf(Brush::Bump), tr("Drag or click: the surface rises under the brush"),
+              Brush::Bump);
+    addButton("dent", nameOf(Brush::Dent), tr("Drag or click: the surface sinks under the brush"),
+              Brush::Dent);
+    addButton("turn", nameOf(Brush::Turn), tr("Drag: the surface turns to where the stroke goes"),
+              Brush::Turn);
+    addButton("round", nameOf(Brush::Round), tr("Drag where the surface was wrongly taken for hollow"),
+              Brush::Round);
+    addButton("hollow", nameOf(Brush::Hollow), tr("Drag along a fold or a hollow that was taken for round"),
+              Brush::Hollow);
     setBrush({});
     adjustSize();
     move(Margin, Margin);

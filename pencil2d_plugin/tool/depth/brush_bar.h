@@ -11,6 +11,9 @@
 namespace lampblack
 {
 
+/// The name of a brush, for people.
+QString nameOf(Brush brush);
+
 /// A child of the canvas, in its upper left corner.
 class BrushBar : public QFrame
 {

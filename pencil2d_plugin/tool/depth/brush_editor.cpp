@@ -1,5 +1,6 @@
 #include "tool/depth/brush_editor.h"
 
+#include "tool/depth/brush_bar.h"
 #include "tool/depth/cuts.h"
 
 #include <QLineF>
@@ -218,8 +219,7 @@ void BrushEditor::addStroke()
             tr("A project has at most %1 strokes of the brush. Remove some first.").arg(MaxStrokes));
         return;
     }
-    const QString text = brush == Brush::Bump ? tr("Bump") : brush == Brush::Dent ? tr("Dent") : tr("Turn");
-    mDocument.edit(text, withStroke(scene, host().currentFrame(), mView.drawn, mView.brush));
+    mDocument.edit(nameOf(brush), withStroke(scene, host().currentFrame(), mView.drawn, mView.brush));
 }
 
 double BrushEditor::longerSide() const

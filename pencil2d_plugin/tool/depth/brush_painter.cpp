@@ -30,6 +30,10 @@ QColor colourOf(Brush brush)
         return {96, 190, 255};
     case Brush::Turn:
         return {190, 130, 255};
+    case Brush::Round:
+        return {255, 220, 90};
+    case Brush::Hollow:
+        return {90, 225, 190};
     }
     return {};
 }
@@ -84,7 +88,9 @@ void paintBrush(QPainter& painter, const BrushView& view, const QTransform& canv
 {
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
-    const double radius = view.brush.radius * scaleOf(canvasToWidget);
+    // What is said of a whole part has no radius.
+    const bool bends = view.brush.brush == Brush::Round || view.brush.brush == Brush::Hollow;
+    const double radius = bends ? DotRadius : view.brush.radius * scaleOf(canvasToWidget);
     for (int i = 0; i < view.strokes.size(); ++i)
         paintLine(painter, canvasToWidget.map(lineOf(view.strokes[i])), view.strokes[i].brush,
                   i == view.hovered ? HoveredWidth : Width);

@@ -94,6 +94,18 @@ private Q_SLOTS:
         QVERIFY(mDocument->scene().depth.hints.isEmpty());
     }
 
+    void aPartIsSaidToBeRoundOrHollow()
+    {
+        choose("hollow");
+        dragMouse(canvas(), {{100, 100}, {150, 110}});
+        choose("round");
+        click({60, 60});
+        QCOMPARE(strokes().size(), 2);
+        QCOMPARE(strokes()[0].brush, Brush::Hollow);
+        QCOMPARE(strokes()[1].brush, Brush::Round);
+        QCOMPARE(mDocument->undoStack()->undoText(), QStringLiteral("Round"));
+    }
+
     void aTurnNeedsAWay()
     {
         choose("turn");

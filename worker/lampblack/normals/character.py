@@ -15,7 +15,7 @@ COARSE = 4
 """Canvas pixels per cell of the coarse maps."""
 
 FINE_CHANNELS = 2
-COARSE_CHANNELS = 10
+COARSE_CHANNELS = 11
 LUMO = slice(0, 3)
 SIDEWAYS = (0, 4, 8)
 """Coarse channels that change sign when the character is mirrored."""
@@ -103,16 +103,24 @@ def shape_maps(mask: NDArray[np.bool_]) -> Plane:
     return result
 
 
-def ink_maps(ink: Plane) -> Plane:
-    """(2, h, w) float32: proximity to the ink of the (H, W) canvas, narrow and wide."""
+def ink_cells(ink: Plane) -> NDArray[np.bool_]:
+    """(h, w): the cells of the (H, W) canvas with ink in them."""
     rows, columns = (n // COARSE for n in ink.shape)
     most = ink.reshape(rows, COARSE, columns, COARSE).max(axis=(1, 3))
-    drawn = most > 0.25
+    drawn: NDArray[np.bool_] = most > 0.25
+    return drawn
+
+
+def ink_maps(ink: Plane) -> Plane:
+    """(2, h, w) float32: proximity to the ink of the (H, W) canvas, narrow and wide."""
+    drawn = ink_cells(ink)
     distance = ndimage.distance_transform_edt(~drawn) if drawn.any() else np.full(drawn.shape, 99.0)
     result: Plane = np.stack([np.exp(-distance / 2), np.sqrt(distance) / 4]).astype(np.float32)
     return result
 
 
-def coarse_maps(shape: Plane, ink: Plane) -> Plane:
-    """(10, h, w): ``shape_maps`` with ``ink_maps`` between the gradient and the position."""
-    return np.concatenate([shape[:6], ink_maps(ink), shape[6:]])
+def coarse_maps(shape: Plane, ink: Plane, hints: Plane | None = None) -> Plane:
+    """(11, h, w): ``shape_maps`` with ``ink_maps`` between the gradient and the position; then the
+    hints, (h, w), see ``bend_strokes.stroke_cells``."""
+    said = np.zeros(shape.shape[1:], np.float32) if hints is None else hints
+    return np.concatenate([shape[:6], ink_maps(ink), shape[6:], said[None]])

@@ -29,11 +29,11 @@ class Network(Protocol):
 
     def predict_character(self, fine: Planes, coarse: Planes) -> tuple[Planes, Planes]:
         """Args:
-            fine: (B, 2, H, W), coarse: (B, 10, H/4, W/4); see ``character.py``.
+            fine: (B, 2, H, W), coarse: (B, 11, H/4, W/4); see ``character.py``.
 
         Returns:
-            (B, 3, H, W) normals, not yet unit; (B, 3, H/4, W/4) depth, and the logits of the near
-            and far side of an occlusion.
+            (B, 3, H, W) normals, not yet unit; (B, 4, H/4, W/4) depth, the logits of the near and
+            far side of an occlusion, and that of ink being a mark.
         """
 
     def predict_tiles(self, tiles: Planes) -> Planes:

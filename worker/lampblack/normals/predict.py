@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .. import __version__
 from ..cache import digest
 from ..choices import DEFAULT_GRIDS
+from .bend_strokes import BendStroke
 from .card import NetworkCard
 from .character import bounding_box, extend_outside
 from .network import Network, shipped_network
@@ -48,6 +49,7 @@ class NormalPredictor:
         *,
         grids: int = DEFAULT_GRIDS,
         quick: bool = False,
+        strokes: Sequence[BendStroke] = (),
         progress: Callable[[float], None] = lambda share: None,
     ) -> Prediction:
         """Predict the normals of one drawing, and its depth and occlusions from the same pass.
@@ -58,6 +60,8 @@ class NormalPredictor:
             grids: 0 predicts the whole character at once. 1 to 64 uses the paper's network on
                 that many diagonally shifted grids of tiles. A network of tiles uses 5 for 0.
             quick: predict a whole character on the smallest canvas only.
+            strokes: what the artist says of round and hollow parts, in pixels of ``mask``. A
+                network of tiles does not know them.
             progress: called with the share done, 0 to 1.
 
         Returns:
@@ -85,7 +89,14 @@ class NormalPredictor:
         )
         if whole:
             sides = self.card.figure_px[: 1 if quick else None]
-            planes, seen = mean_planes(self._network, sides, character_lines, character_mask)
+            right, down = inner[1].start - box[1].start, inner[0].start - box[0].start
+            planes, seen = mean_planes(
+                self._network,
+                sides,
+                character_lines,
+                character_mask,
+                [stroke.moved(right, down) for stroke in strokes],
+            )
         else:
             scale = self._scale(max(character_mask.shape))
             small_lines, seen = _resize_drawing(character_lines, character_mask, scale)

@@ -55,8 +55,9 @@ class DepthStroke:
     """A stroke of a brush that corrects the surface.
 
     A bump is a smooth hump along the stroke, a dent a hollow. A turn makes the surface face the way
-    the stroke goes. Frames before and after ``frame`` have it too: it is carried along with the
-    drawing.
+    the stroke goes. Round and hollow say how the surface bends along the stroke: it is predicted
+    again with that, and radius and amount do not matter. Frames before and after ``frame``
+    have it too: it is carried along with the drawing.
     """
 
     frame: KeyFrame

@@ -65,7 +65,7 @@ def humped(
     """
     found = height.copy()
     for stroke in strokes:
-        if stroke.brush == "turn":
+        if stroke.brush not in ("bump", "dent"):
             continue
         amount = stroke.amount * stroke.radius * (1 if stroke.brush == "bump" else -1)
         for trace in _traces(stroke, mask.shape):

@@ -23,7 +23,7 @@ from ..evaluation.surfaces import Method, NetworkMethod
 
 COLUMNS = (
     *("mean", "median", "l1", "l2", "under_11", "under_22", "under_30"),
-    *("tilt", "truth_tilt", "rim", "truth_rim", "curvature", "concave", "seconds"),
+    *("tilt", "truth_tilt", "rim", "truth_rim", "curvature", "concave", "dented", "seconds"),
 )
 DEPTH_COLUMNS = (
     *("recovered", "recovered_median", "quarter", "sign", "over", "false", "cut"),
@@ -92,7 +92,8 @@ def evaluate(
         typer.Option(
             "--clicks",
             help="With --depth: measure also the surfaces after the worst overlap of each "
-            "drawing is corrected with one click.",
+            "drawing is corrected with one click, and the share of its largest wrong hollow "
+            "that one stroke mends.",
         ),
     ] = False,
     as_json: Annotated[
@@ -143,6 +144,8 @@ def evaluate(
         _show(table, DEPTH_COLUMNS)
     if depth and marks:
         _show(table, MARK_COLUMNS)
+    if depth and clicks:
+        _show(table, ("mended",))
 
 
 def _show(table: dict[str, dict[str, float]], columns: tuple[str, ...]) -> None:

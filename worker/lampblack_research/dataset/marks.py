@@ -12,7 +12,7 @@ Image = NDArray[np.float32]
 
 PATCHES = (1, 6)
 RADIUS = (0.06, 0.3)
-SPACING = (0.014, 0.08)
+SPACING = (0.014, 0.12)
 WIDTH = (0.002, 0.01)
 """Ranges of: the number of marked places, and their radius, the distance between marks, and the
 width of their ink, as shares of the character's length (the square root of its area)."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import asdict
+from functools import partial
 
 from lampblack.errors import LampblackError
 
 from .depth_figures import DepthTruth, mean_known
 from .drawings import TestDrawing
+from .hollows import mended
 from .jumps import Image
 from .marks import MARKS, draw_marks, wrongly_cut
 from .metrics import measure
@@ -41,7 +43,8 @@ class DepthMeter:
     Args:
         character_px: longest side of the characters.
         marks: measure with marks too, which draws each drawing three times more.
-        clicks: measure networks also after one correct click a drawing, in rows of their own.
+        clicks: measure networks also after one correct click a drawing, in rows of their own; and
+            ``mended``, see ``hollows``.
 
     Raises:
         LampblackError: the characters are so large that their surfaces are made smaller.
@@ -79,6 +82,9 @@ class DepthMeter:
                     f"{name}, one click",
                     method.corrected(drawing.lines, drawing.mask, drawing.depth),
                 )
+                told = partial(method, drawing.lines, drawing.mask)
+                share = mended(told, normals[name], drawing.truth, drawing.mask)
+                self._note(name, {"mended": share})
             if self._marks:
                 self._note(name, _with_marks(method, drawing, normals[name], surface.height))
         note(TRUE_NORMALS, surface_of_normals(drawing.truth, drawing.mask))

@@ -11,7 +11,7 @@ from scipy import ndimage
 RIM_SHARE = 0.006
 """Width of the rim as a share of the character's size: 3 pixels of 512."""
 
-_CURVED = 1.0
+CURVED = 1.0
 """Smallest divergence of the normals that counts as curved. A ball as large as the character
 has 4."""
 
@@ -29,6 +29,7 @@ class Errors:
         rim: mean elevation above the picture plane along the silhouette; truth_rim likewise.
         curvature: percent of curved pixels whose divergence has the sign of the truth's.
         concave: the same, of hollow pixels only; nan if there are none.
+        dented: percent of round pixels that are hollow; nan if there are none.
     """
 
     mean: float
@@ -44,6 +45,7 @@ class Errors:
     truth_rim: float
     curvature: float
     concave: float
+    dented: float
 
 
 def measure(
@@ -54,7 +56,7 @@ def measure(
     angle = np.degrees(np.arccos(np.clip(np.einsum("nc,nc->n", a, b), -1, 1)))
     distance = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
     rim = mask & (distance <= max(1.0, RIM_SHARE * max(mask.shape)))
-    curvature, concave = _same_curvature(found, truth, mask)
+    curvature, concave, dented = _same_curvature(found, truth, mask)
     return Errors(
         mean=float(angle.mean()),
         median=float(np.median(angle)),
@@ -69,6 +71,7 @@ def measure(
         truth_rim=90 - _tilt(truth[rim]),
         curvature=curvature,
         concave=concave,
+        dented=dented,
     )
 
 
@@ -106,24 +109,29 @@ def _tilt(normals: NDArray[np.float32]) -> float:
     return float(np.degrees(np.arccos(np.clip(normals[:, 2], -1, 1))).mean())
 
 
-def _same_curvature(
-    found: NDArray[np.float32], truth: NDArray[np.float32], mask: NDArray[np.bool_]
-) -> tuple[float, float]:
-    """Percent of the curved and of the hollow pixels."""
+def bend(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """(H, W) divergence of (H, W, 3) normals, smoothed, per size of the character: above 0 where
+    the surface is round, below 0 where it is hollow. 0 outside and at the border of ``mask``."""
     size = max(mask.shape)
     inner = ndimage.binary_erosion(mask, iterations=max(2, size // 100))
-    bends = []
     sigma = size / 128
     share = ndimage.gaussian_filter(mask.astype(np.float32), sigma)[..., None]
-    for normals in (found, truth):
-        smooth = ndimage.gaussian_filter(normals, (sigma, sigma, 0)) / np.maximum(share, 1e-3)
-        bends.append(
-            size * (np.gradient(smooth[..., 0], axis=1) - np.gradient(smooth[..., 1], axis=0))
-        )
-    same = np.sign(bends[0]) == np.sign(bends[1])
-    hollow = inner & (bends[1] < -_CURVED)
-    curved = hollow | (inner & (bends[1] > _CURVED))
+    smooth = ndimage.gaussian_filter(normals, (sigma, sigma, 0)) / np.maximum(share, 1e-3)
+    slopes = np.gradient(smooth[..., 0], axis=1) - np.gradient(smooth[..., 1], axis=0)
+    return np.asarray(size * slopes * inner, np.float32)
+
+
+def _same_curvature(
+    found: NDArray[np.float32], truth: NDArray[np.float32], mask: NDArray[np.bool_]
+) -> tuple[float, float, float]:
+    """Percent of the curved and of the hollow pixels with the right sign, and of the round ones
+    with the wrong one."""
+    ours, true = bend(found, mask), bend(truth, mask)
+    same = np.sign(ours) == np.sign(true)
+    hollow, rounded = true < -CURVED, true > CURVED
+    curved = hollow | rounded
     return (
         100 * float(same[curved].mean()) if curved.any() else 100.0,
         100 * float(same[hollow].mean()) if hollow.any() else float("nan"),
+        100 * float((ours < 0)[rounded].mean()) if rounded.any() else float("nan"),
     )

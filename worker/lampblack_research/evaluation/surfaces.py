@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,6 +15,7 @@ from lampblack.cache import ArrayCache
 from lampblack.choices import DEFAULT_GRIDS, PipelineOptions
 from lampblack.drawing import Drawing
 from lampblack.drawing.palette import Palette, Swatch
+from lampblack.normals.bend_strokes import BendStroke
 from lampblack.normals.networks.torch_network import TorchNetwork
 from lampblack.normals.predict import NormalPredictor
 from lampblack.pipeline import Pipeline
@@ -66,9 +67,9 @@ class NetworkMethod:
             predictor=predictor,
         )
 
-    def __call__(self, lines: Lines, mask: Mask) -> Normals:
+    def __call__(self, lines: Lines, mask: Mask, strokes: Sequence[BendStroke] = ()) -> Normals:
         """The predicted normals."""
-        return self._predictor.predict(lines, mask, grids=self._grids).normals
+        return self._predictor.predict(lines, mask, grids=self._grids, strokes=strokes).normals
 
     def surface(self, lines: Lines, mask: Mask) -> MeasuredSurface:
         """The surface of the drawing."""

@@ -13,7 +13,15 @@ import torch
 from numpy.typing import NDArray
 from torch import nn
 
-from lampblack.normals.character import COARSE, SIDEWAYS, canvas_for, coarse_maps, place, shape_maps
+from lampblack.normals.character import (
+    COARSE,
+    SIDEWAYS,
+    canvas_for,
+    coarse_maps,
+    ink_cells,
+    place,
+    shape_maps,
+)
 from lampblack.normals.precision import fast_arithmetic
 from lampblack.normals.resize import resize
 
@@ -21,12 +29,15 @@ from ..dataset.marks import random_marks
 from ..dataset.triple import BEHIND, DEPTH_STEPS, IN_FRONT, Triple
 from .character_loss import Batch, Loss, character_loss
 from .example import Example, make_examples
+from .hint_strokes import bent_cells, random_hints
 from .stream import Stream
 from .stretch import random_stretch, stretched
 
 FULL_BATCH_SIDE, SMALLEST_BATCH = 256, 4
-MARKED = 0.3
+MARKED = 0.35
 """Share of the drawings that get marks which are no edges."""
+HINTED = 0.35
+"""Share of the examples with hints of an artist."""
 
 
 @dataclass(frozen=True)
@@ -35,18 +46,23 @@ class CanvasCharacter:
 
     Attributes:
         inks: (K, H, W) uint8, its drawings; 255 is full ink.
+        marks: (K, h, w) int8: 1 where all ink is of marks, 0 where some is a line, -1 where there
+            is none.
         mask: (H, W) bool.
         normals: (H, W, 3) int8, 127 is 1.
         shape: (8, h, w) float16, see ``shape_maps``.
         auxiliary: (3, h, w) float16: depth minus its mean, in canvas sides; near and far sides of
             occlusions, 0 or 1.
+        bent: (h, w) int8: 1 where the surface is round, -1 where it is hollow, else 0.
     """
 
     inks: NDArray[np.uint8]
+    marks: NDArray[np.int8]
     mask: NDArray[np.bool_]
     normals: NDArray[np.int8]
     shape: NDArray[np.float16]
     auxiliary: NDArray[np.float16]
+    bent: NDArray[np.int8]
 
 
 def place_on_canvas(
@@ -60,10 +76,15 @@ def place_on_canvas(
     planes = [triple.normals[box].astype(np.float32) / 127.0 * inside[..., None]]
     pixels = triple.depth[box] / np.float32(DEPTH_STEPS)
     drawings = triple.drawings[:, *box] / np.float32(255)
-    for drawing in drawings:
-        if rng.random() < MARKED:
-            np.maximum(drawing, random_marks(pixels, inside > 0, rng), out=drawing)
-    planes += [drawings.transpose(1, 2, 0) * inside[..., None]]
+    marks = np.stack(
+        [
+            random_marks(pixels, inside > 0, rng)
+            if rng.random() < MARKED
+            else np.zeros_like(pixels)
+            for _ in drawings
+        ]
+    )
+    planes += [ink.transpose(1, 2, 0) * inside[..., None] for ink in (drawings, marks)]
     depth = pixels / max(inside.shape) * inside
     planes += [depth[..., None], inside[..., None]]
     planes += [(triple.occlusion[box] == near)[..., None] for near in (IN_FRONT, BEHIND)]
@@ -76,7 +97,7 @@ def place_on_canvas(
     canvas = canvas_for(picture.shape[:2], side, float(rng.uniform(0.85, 1)))
     placed = place(picture, canvas)
     count = len(triple.drawings)
-    normals, inks, rest = np.split(placed, [3, 3 + count], axis=2)
+    normals, inks, marks, rest = np.split(placed, [3, 3 + count, 3 + 2 * count], axis=2)
     share = rest[..., 1:2]
     mask = share[..., 0] > 0.5
     normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), 1e-6)
@@ -86,14 +107,25 @@ def place_on_canvas(
     h, w = (n // COARSE for n in mask.shape)
     cells = cells.reshape(3, h, COARSE, w, COARSE)
     auxiliary = np.concatenate([cells[:1].mean((2, 4)), cells[1:].max(axis=(2, 4)) > 0.25])
-    inks = np.clip(np.divide(inks, np.maximum(share, 0.25)), 0, 1) * mask[..., None]
+    inks, marks = (_unmixed(part, share) * mask for part in (inks, marks))
+    kinds = [
+        np.where(ink_cells(line), 0, np.where(ink_cells(mark), 1, -1))
+        for line, mark in zip(inks, marks, strict=True)
+    ]
     return CanvasCharacter(
-        np.round(inks.transpose(2, 0, 1) * 255).astype(np.uint8),
+        np.round(np.maximum(inks, marks) * 255).astype(np.uint8),
+        np.stack(kinds).astype(np.int8),
         mask,
         np.round(normals * mask[..., None] * 127).astype(np.int8),
         shape_maps(mask).astype(np.float16),
         auxiliary.astype(np.float16),
+        bent_cells(normals, mask),
     )
+
+
+def _unmixed(ink: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(H, W, K) ink that was averaged with what lies outside -> (K, H, W), 0 to 1."""
+    return np.clip(np.divide(ink, np.maximum(share, 0.25)), 0, 1).transpose(2, 0, 1)
 
 
 def _box(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
@@ -164,11 +196,14 @@ def input_and_truth(
     character: CanvasCharacter, rng: np.random.Generator
 ) -> tuple[NDArray[np.float32], ...]:
     """Input and truth of one of the drawings, see ``Batch``; mirrored half the time."""
-    ink = character.inks[rng.integers(len(character.inks))] / np.float32(255)
+    chosen = rng.integers(len(character.inks))
+    ink = character.inks[chosen] / np.float32(255)
     fine = np.stack([ink, character.mask.astype(np.float32)])
-    coarse = coarse_maps(character.shape.astype(np.float32), ink)
+    hints = random_hints(character.bent, rng) if rng.random() < HINTED else None
+    coarse = coarse_maps(character.shape.astype(np.float32), ink, hints)
     normals = character.normals.transpose(2, 0, 1) / np.float32(127)
-    auxiliary = character.auxiliary.astype(np.float32)
+    auxiliary = np.concatenate([character.auxiliary, character.marks[chosen, None]])
+    auxiliary = auxiliary.astype(np.float32)
     parts = [fine, coarse, normals, auxiliary]
     if rng.random() < 0.5:
         parts = [part[..., ::-1].copy() for part in parts]

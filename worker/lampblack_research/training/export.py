@@ -52,7 +52,7 @@ def export_graph(network: nn.Module, weights: str) -> bytes:
             {0: batch, 2: 32 * rows, 3: 32 * columns},
             {0: batch, 2: 8 * rows, 3: 8 * columns},
         )
-        given: Any = (torch.rand(2, 2, 320, 256), torch.rand(2, 10, 80, 64))
+        given: Any = (torch.rand(2, 2, 320, 256), torch.rand(2, 11, 80, 64))
         wrapped: nn.Module = _Correction(network)
         names: Any = {
             "input_names": ["fine", "coarse"],

@@ -3,8 +3,8 @@
 A residual U-Net. Its first level has a quarter of the canvas's resolution (pixels are folded
 into channels). Its deepest has a thirty-second, with attention between all cells. The output
 is added to Lumo's normals, so an untrained network equals that baseline. Training also predicts
-the confidence of the normals (angular von Mises-Fisher, Bae 2021), depth, and occlusion edges
-with the side that is in front.
+the confidence of the normals (angular von Mises-Fisher, Bae 2021), depth, occlusion edges
+with the side that is in front, and which ink is a mark that is no edge.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class CharacterNet(nn.Module):
         self.up2, self.joined2 = nn.Conv2d(third, second, 1), Residual(second)
         self.up1, self.joined1 = nn.Conv2d(second, first, 1), _convolution(first, first)
         self.normals = nn.Conv2d(first, 4 * COARSE * COARSE, 3, padding=1)
-        self.auxiliary = nn.Conv2d(first, 3, 1)
+        self.auxiliary = nn.Conv2d(first, 4, 1)
         for module in self.modules():
             if isinstance(module, nn.Conv2d):
                 nn.init.kaiming_normal_(module.weight, nonlinearity="relu")
@@ -107,11 +107,12 @@ class CharacterNet(nn.Module):
 
     def forward(self, fine: Tensor, coarse: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Args:
-            fine: (B, 2, H, W), coarse: (B, 10, H/4, W/4); see ``character.py``.
+            fine: (B, 2, H, W), coarse: (B, 11, H/4, W/4); see ``character.py``.
 
         Returns:
             (B, 3, H, W) normals, not yet unit; (B, 1, H, W) logarithm of their concentration;
-            (B, 3, H/4, W/4) depth, and the logits of the near and far side of an occlusion.
+            (B, 4, H/4, W/4) depth, the logits of the near and far side of an occlusion, and that of
+            ink being a mark.
         """
         raw, auxiliary = self.correction(fine, coarse)
         # Double precision: in single, the last bit depends on the number of threads.
@@ -122,7 +123,7 @@ class CharacterNet(nn.Module):
 
     def correction(self, fine: Tensor, coarse: Tensor) -> tuple[Tensor, Tensor]:
         """(B, 4, H, W): what is added to Lumo's normals, and the logarithm of their concentration;
-        and (B, 3, H/4, W/4), as in ``forward``. This is the graph that ONNX Runtime runs."""
+        and (B, 4, H/4, W/4), as in ``forward``. This is the graph that ONNX Runtime runs."""
         folded = nn.functional.pixel_unshuffle(fine, COARSE)
         first = self.stem(torch.cat([folded, coarse], dim=1))
         second = self.down2(first)
