@@ -19,7 +19,7 @@ from .byte_arguments import (
     ToneSteps,
 )
 from .byte_ground import put_on_ground
-from .byte_light import light_row
+from .byte_light import columns_of, light_row
 from .byte_paint import reflect_row
 from .line import OWN_COLOUR
 from .rim import PLAIN_RIM, rim_reach, rim_share
@@ -45,15 +45,16 @@ def light_pixels(
     unlit, spare = np.empty((width, 3), np.float32), np.empty((width, 3), np.float32)
     light, gleam = np.empty((2, width, 3), np.float32), np.empty((2, width, 3), np.float32)
     columns, mixed = np.empty(width, np.intp), np.empty(width, np.intp)
+    at = columns_of(width, figure, tones, parts)
     for row in range(height):
         found, both = _chosen(row, planes, paints, parts, tables, base, fill, unlit, columns, mixed)
         own, their = columns[:found], mixed[:both]
         light_row(
-            row, own, planes.labels[row], paints.kinds, figure, tones, parts,
+            row, own, at, planes.labels[row], paints.kinds, figure, tones, parts,
             light[0], gleam[0], spare,
         )  # fmt: skip
         light_row(
-            row, their, planes.others[row], paints.kinds, figure, tones, parts,
+            row, their, at, planes.others[row], paints.kinds, figure, tones, parts,
             light[1], gleam[1], spare,
         )  # fmt: skip
         reflect_row(row, own, planes, paints, parts.number, light, gleam, base, fill, unlit)

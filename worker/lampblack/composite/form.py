@@ -16,7 +16,6 @@ from ..scene import Scene, shining
 from .linking import Link
 from .open_light import open_light, towards
 from .resample import Box
-from .sums import brightest_of
 
 LONGEST = 256
 """Elements along the longer side of a form, at most."""
@@ -98,13 +97,13 @@ class Form:
             corner: x and y of the form in pixels of ``scene``.
         """
         places, normals = _laid_out(self, corner, scene.relief_scale)
-        total = np.zeros(normals.shape, np.float32)
+        total = np.zeros((3, *self.rise.shape), np.float32)
         for light, shines in zip(scene.lights, shining(scene.lights), strict=True):
             if shines and Link.of(light) == link:
                 weight = hex_linear(light.colour) * np.float32(light.power)
                 ways = towards(light, scene.canvas, places)
-                total += weight * open_light(light, scene.canvas, normals, ways)[..., None]
-        return brightest_of(total)
+                total += weight[:, None, None] * open_light(light, scene.canvas, normals, ways)
+        return np.asarray(total.max(axis=0), np.float32)
 
 
 # While colours and powers change, or a light is dragged, these stay.

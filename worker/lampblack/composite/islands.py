@@ -31,9 +31,10 @@ def without_islands(amount: Floats, lows: Floats, highs: Floats, smallest: int) 
     for low, high in zip(lows, highs, strict=True):
         # Also what crosses half of a soft step, or nearly crosses it: it would be seen as a ghost.
         bright, dark = (high, low, low * (1 - MARGIN)), (low, high, high * (1 + MARGIN))
+        # Both ends of a hard step are one level.
         for level, lit in (
-            *((level, True) for level in bright),
-            *((level, False) for level in dark),
+            *((level, True) for level in dict.fromkeys(bright)),
+            *((level, False) for level in dict.fromkeys(dark)),
         ):
             islands = small_regions(found, np.float32(level), smallest, above=lit)
             if islands and found is amount:

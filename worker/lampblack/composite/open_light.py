@@ -21,7 +21,9 @@ def towards(light: AreaLight, canvas: Canvas, places: Floats) -> Floats:
     """
     at = np.array([light.x, light.y, light.z], np.float32)
     if light.kind == "lamp":
-        return np.asarray(at - places, np.float32)
+        ways = np.empty(places.shape, np.float32)
+        _lead(places, at, ways)
+        return ways
     way = at - np.array([canvas.width / 2, canvas.height / 2, 0], np.float32)
     way = way if np.abs(way).max() > 1e-3 else np.array([0, 0, 1], np.float32)
     return np.ascontiguousarray(np.broadcast_to(way, places.shape))
@@ -38,6 +40,14 @@ def open_light(light: AreaLight, canvas: Canvas, normals: Floats, ways: Floats) 
     lamp, unit = light.kind == "lamp", np.float32(canvas.default_height)
     _shine(normals, ways, lamp, unit, np.float32(light.size / 2), found)
     return found
+
+
+@compiled
+def _lead(places: Any, at: Any, ways: Any) -> None:
+    for row in range(ways.shape[0]):
+        for column in range(ways.shape[1]):
+            for axis in range(3):
+                ways[row, column, axis] = at[axis] - places[row, column, axis]
 
 
 @compiled

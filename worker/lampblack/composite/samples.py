@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..colour import linear, srgb
 from ..compiled import compiled
 from .line import DARK_INK, PALE_INK
+from .scan import level_of, levels_of_row, places
 
 STEPS = 4096
 LINEAR = linear(np.arange(256) / 255)
@@ -31,20 +32,6 @@ def sample(picture: Any, u: float, v: float, channel: int) -> Any:
     return above + t * (below - above)
 
 
-@compiled
-def level(picture: Any, u: float, v: float) -> Any:
-    """``sample`` of a picture with one channel."""
-    height, width = picture.shape
-    x = min(max(u * width - 0.5, 0.0), width - 1.0)
-    y = min(max(v * height - 0.5, 0.0), height - 1.0)
-    x0, y0 = int(x), int(y)
-    x1, y1 = min(x0 + 1, width - 1), min(y0 + 1, height - 1)
-    s, t = np.float32(x - x0), np.float32(y - y0)
-    above = picture[y0, x0] + s * (picture[y0, x1] - picture[y0, x0])
-    below = picture[y1, x0] + s * (picture[y1, x1] - picture[y1, x0])
-    return above + t * (below - above)
-
-
 def resized(plane: NDArray[np.float32], size: tuple[int, ...]) -> NDArray[np.float32]:
     """(h, w) sampled at ``size`` (rows, columns) places, bilinear; the outer edges coincide."""
     if plane.shape == size:
@@ -57,9 +44,11 @@ def resized(plane: NDArray[np.float32], size: tuple[int, ...]) -> NDArray[np.flo
 @compiled
 def _resize(plane: Any, found: Any) -> None:
     rows, columns = found.shape
+    before, shares = places(1 / columns, 0.5 / columns, columns, plane.shape[1])
     for row in range(rows):
+        levels = levels_of_row(plane, (row + 0.5) / rows, 0, plane.shape[1] - 1)
         for column in range(columns):
-            found[row, column] = level(plane, (column + 0.5) / columns, (row + 0.5) / rows)
+            found[row, column] = level_of(levels, before[column], shares[column])
 
 
 @compiled

@@ -1,7 +1,8 @@
 """Rows of pictures, for compiled loops that need them pixel by pixel, from left to right.
 
 A row between two rows of a picture is interpolated once; the pixels are then between two of its
-elements each. The outer edges of picture and result coincide, as in ``resample.enlarge``.
+elements each, the same two in every row. The outer edges of picture and result coincide, as in
+``resample.enlarge``.
 """
 
 from __future__ import annotations
@@ -23,73 +24,97 @@ def between(at: float, size: int) -> tuple[int, int, Any]:
 
 
 @compiled
-def colours_of_row(picture: Any, v: float, left: float, right: float) -> Any:
-    """(w, 3) the row at ``v`` of ``picture``, (h, w, 3): as much of it as pixels from ``left`` to
-    ``right`` need."""
-    row = np.empty((picture.shape[1], 3), np.float32)
+def places(step: float, start: float, count: int, size: int) -> Any:
+    """For each of ``count`` pixels, at ``start + i * step`` of 0..1, the element before it of
+    ``size`` elements, (count,) intp, and the share of the next one, (count,) float32."""
+    before, shares = np.empty(count, np.intp), np.empty(count, np.float32)
+    for at in range(count):
+        before[at], _, shares[at] = between(start + at * step, size)
+    return before, shares
+
+
+@compiled
+def colours_of_row(picture: Any, v: float, first: int, last: int) -> Any:
+    """(w + 1, 3) the row at ``v`` of ``picture``, (h, w, 3): its elements ``first`` to ``last`` and
+    the one after them. The last element is repeated."""
+    width = picture.shape[1]
+    row = np.empty((width + 1, 3), np.float32)
     above, below, share = between(v, picture.shape[0])
     one, other = picture[above], picture[below]
-    first, last = between(left, picture.shape[1])[0], between(right, picture.shape[1])[1]
-    for column in range(first, last + 1):
+    for column in range(first, min(last + 2, width)):
         for c in range(3):
             row[column, c] = one[column, c] + share * (other[column, c] - one[column, c])
+    row[width] = row[width - 1]
     return row
 
 
 @compiled
-def colour_of(row: Any, u: float, found: Any, at: int) -> None:
-    """Write the colour at ``u`` of a row of colours to ``found[at]``."""
-    before, after, share = between(u, len(row))
+def colour_of(row: Any, before: int, share: Any, found: Any, at: int) -> None:
+    """Write the colour of a row of colours, ``share`` of the way from an element to the next, to
+    ``found[at]``."""
     for c in range(3):
-        found[at, c] = row[before, c] + share * (row[after, c] - row[before, c])
+        found[at, c] = row[before, c] + share * (row[before + 1, c] - row[before, c])
 
 
 @compiled
-def levels_of_row(picture: Any, v: float, left: float, right: float) -> Any:
-    """(4, w) the same of a picture with one channel: the level, how much it rises from the row
-    above to that below, and the least and the greatest of both."""
-    row = np.empty((4, picture.shape[1]), np.float32)
+def levels_of_row(picture: Any, v: float, first: int, last: int) -> Any:
+    """(2, w + 1) the same of a picture with one channel: the level, and how much it rises from the
+    row above to that below."""
+    width = picture.shape[1]
+    row = np.empty((2, width + 1), np.float32)
     above, below, share = between(v, picture.shape[0])
     one, other = picture[above], picture[below]
-    first, last = between(left, picture.shape[1])[0], between(right, picture.shape[1])[1]
-    for column in range(first, last + 1):
-        high, low = one[column], other[column]
-        row[0, column] = high + share * (low - high)
-        row[1, column] = low - high
-        row[2, column] = high if high < low else low
-        row[3, column] = high if high > low else low
+    for column in range(first, min(last + 2, width)):
+        row[0, column] = one[column] + share * (other[column] - one[column])
+        row[1, column] = other[column] - one[column]
+    row[:, width] = row[:, width - 1]
     return row
 
 
 @compiled
-def level_of(row: Any, u: float) -> Any:
-    """The level at ``u``."""
-    before, after, share = between(u, row.shape[1])
-    return row[0, before] + share * (row[0, after] - row[0, before])
+def level_of(row: Any, before: int, share: Any) -> Any:
+    """The level ``share`` of the way from an element to the next."""
+    return row[0, before] + share * (row[0, before + 1] - row[0, before])
 
 
 @compiled
-def step_of(row: Any, u: float, across: Any, down: Any, lows: Any, highs: Any) -> Any:
-    """The tone at ``u``: 0 is below all steps, 1 above all of them. Steps are at least as wide as a
-    pixel, so that their edges are anti-aliased.
+def sides_of_row(
+    picture: Any, v: float, first: int, last: int, across: Any, down: Any, lows: Any, highs: Any
+) -> Any:
+    """(w,) int8 for each element ``first`` to ``last`` of a row, on which side of all steps the
+    pixels between it and the next are: 0 is below, 1 above, -1 unknown. See ``step_of``."""
+    width = picture.shape[1]
+    sides = np.empty(width, np.int8)
+    above, below, _ = between(v, picture.shape[0])
+    one, other = picture[above], picture[below]
+    # How far the light at a pixel may be from that of the four elements around it, where its step
+    # is anti-aliased, as a share of their range.
+    reach = np.float32(1.5) * max(across, down, np.float32(1))
+    lowest, highest = lows[0], highs[-1]
+    for column in range(first, last + 1):
+        after = min(column + 1, width - 1)
+        a, b, c, d = one[column], one[after], other[column], other[after]
+        least, most = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
+        margin = reach * (most - least)
+        side = 0 if most + margin < lowest else -1
+        sides[column] = 1 if least - margin > highest else side
+    return sides
+
+
+@compiled
+def step_of(
+    row: Any, before: int, share: Any, across: Any, down: Any, lows: Any, highs: Any
+) -> Any:
+    """The tone ``share`` of the way from an element to the next: 0 is below all steps, 1 above all
+    of them. Steps are at least as wide as a pixel, so that their edges are anti-aliased.
 
     Args:
         across, down: size of a pixel in elements of the picture.
     """
-    before, after, share = between(u, row.shape[1])
-    a, b = row[2, before], row[2, after]
-    least = a if a < b else b
-    a, b = row[3, before], row[3, after]
-    most = a if a > b else b
-    # Most pixels are far from any step.
-    reach = step_reach(across, down) * (most - least)
-    if most + reach < lows[0]:
-        return np.float32(0)
-    if least - reach > highs[-1]:
-        return np.float32(1)
-    value = row[0, before] + share * (row[0, after] - row[0, before])
-    slope_x = across * (row[0, after] - row[0, before])
-    slope_y = down * (row[1, before] + share * (row[1, after] - row[1, before]))
+    rise = row[0, before + 1] - row[0, before]
+    value = row[0, before] + share * rise
+    slope_x = across * rise
+    slope_y = down * (row[1, before] + share * (row[1, before + 1] - row[1, before]))
     pixel = np.float32(0.75) * np.sqrt(slope_x * slope_x + slope_y * slope_y)
     total = np.float32(0)
     for step in range(len(lows)):
@@ -99,10 +124,3 @@ def step_of(row: Any, u: float, across: Any, down: Any, lows: Any, highs: Any) -
         part = np.float32(0.5) + np.float32(0.5) * part
         total += part * part * (np.float32(3) - np.float32(2) * part)
     return total / np.float32(len(lows))
-
-
-@compiled
-def step_reach(across: Any, down: Any) -> Any:
-    """How far the light at a pixel may be from that of the four elements around it, where its step
-    is anti-aliased, as a share of their range."""
-    return np.float32(1.5) * max(across, down, np.float32(1))

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compiled import compiled
 from ..scene import Scene
 from .blur import blurred
 from .form import Form
@@ -54,7 +55,17 @@ def cast_shadow(
             shadows turns away.
     """
     unblocked = form.within(area).open_light(scene, (area[0], area[1]), None)
-    would = resized(unblocked, amount.shape) / reach
-    blocked = np.float32(BLOCKED) - amount / np.maximum(would, np.float32(0.02))
-    facing = np.float32(0.5) * (would / np.float32(max(step, 1e-3)) - 1)
-    return np.asarray(np.clip(np.float32(0.5) + np.minimum(blocked, facing), 0, 1), np.float32)
+    found = np.empty(amount.shape, np.float32)
+    _cast(resized(unblocked, amount.shape), reach, amount, np.float32(max(step, 1e-3)), found)
+    return found
+
+
+@compiled
+def _cast(unblocked: Any, reach: Any, amount: Any, step: Any, found: Any) -> None:
+    half, one, least = np.float32(0.5), np.float32(1), np.float32(0.02)
+    for row in range(found.shape[0]):
+        for column in range(found.shape[1]):
+            would = unblocked[row, column] / reach[row, column]
+            blocked = np.float32(BLOCKED) - amount[row, column] / max(would, least)
+            facing = half * (would / step - one)
+            found[row, column] = min(max(half + min(blocked, facing), np.float32(0)), one)

@@ -23,7 +23,7 @@ from .illumination import Illumination
 from .islands import without_islands
 from .linking import Link
 from .resample import Band, Box, enlarge
-from .scan import levels_of_row, step_of
+from .scan import levels_of_row, places, sides_of_row, step_of
 from .shadowed import cast_shadow, reflected_into_shade
 from .spline import refined
 from .sums import add_up, brightest_of
@@ -248,8 +248,15 @@ def _shares(
 ) -> None:
     width, rows, columns = shares.shape[1], amount.shape[0], amount.shape[1]
     across, down = np.float32(columns / width), np.float32(rows / height)
+    before, part = places(1 / width, 0.5 / width, width, columns)
     for row in range(top, bottom):
-        levels = levels_of_row(amount, (row + 0.5) / height, 0.0, 1.0)
+        v = (row + 0.5) / height
+        levels = levels_of_row(amount, v, 0, columns - 1)
+        sides = sides_of_row(amount, v, 0, columns - 1, across, down, lows, highs)
         for column in range(width):
-            at = (column + 0.5) / width
-            shares[row - top, column] = step_of(levels, at, across, down, lows, highs)
+            side = sides[before[column]]
+            shares[row - top, column] = (
+                np.float32(side)
+                if side >= 0
+                else step_of(levels, before[column], part[column], across, down, lows, highs)
+            )
