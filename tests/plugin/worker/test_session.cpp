@@ -1,39 +1,18 @@
 // WorkerSession with a worker process that follows a script.
-#include "worker/worker_session.h"
+#include "support/session_test.h"
 
 #include <QElapsedTimer>
-#include <QFile>
 #include <QJsonArray>
-#include <QJsonDocument>
 #include <QJsonObject>
 #include <QSignalSpy>
-#include <QTemporaryDir>
 #include <QTimer>
-#include <QtTest>
 
-#include <algorithm>
 #include <csignal>
 
 using namespace lampblack;
 
 namespace
 {
-
-constexpr int Side = 8;
-
-QImage sheet(Qt::GlobalColor colour)
-{
-    QImage image(Side, Side, QImage::Format_RGBA8888);
-    image.fill(colour);
-    return image;
-}
-
-Scene sceneLitFrom(double x)
-{
-    Scene scene = defaultScene(QSize(Side, Side));
-    scene.lights[0].x = x;
-    return scene;
-}
 
 /// Logs the longest time between two turns of the event loop; nothing is asserted.
 class Watch : public QObject
@@ -55,19 +34,11 @@ private:
 
 } // namespace
 
-class TestWorkerSession : public QObject
+class TestWorkerSession : public SessionTest
 {
     Q_OBJECT
 
 private Q_SLOTS:
-    void init()
-    {
-        mFolder = std::make_unique<QTemporaryDir>();
-        mImages.clear();
-        mProblems.clear();
-        qputenv("LAMPBLACK_FAKE_FOLDER", mFolder->path().toLocal8Bit());
-    }
-
     void aDrawingUnderALightIsShown_data()
     {
         QTest::addColumn<QByteArray>("script");
@@ -318,23 +289,6 @@ private Q_SLOTS:
         QCOMPARE(picture.pixelColor(1, 0), QColor(255, 128, 128));
     }
 
-    void aRenderIsTakenApart()
-    {
-        const auto session = open("good");
-        lookAtOne(*session);
-        const QSignalSpy done(session.get(), &Worker::renderDone);
-        session->render(QStringLiteral("1"), QStringLiteral("/tmp/a.%04d.exr"), Quality::Low, {},
-                        ApartKind::Exr);
-        QTRY_COMPARE(done.count(), 1);
-        const QList<QJsonObject> headers = received();
-        const auto render =
-            std::find_if(headers.begin(), headers.end(),
-                         [](const QJsonObject& header)
-                         { return header.value(QLatin1String("type")) == QLatin1String("render"); });
-        QVERIFY(render != headers.end());
-        QCOMPARE(render->value(QLatin1String("apart")).toString(), QStringLiteral("exr"));
-    }
-
     void layersAreSentApart_data()
     {
         QTest::addColumn<QByteArray>("script");
@@ -365,74 +319,6 @@ private Q_SLOTS:
         QCOMPARE(sent.value(QLatin1String("planes")).toArray().size(), 1 + layers.size());
     }
 
-    void aRenderIsFinishedByTheNextWorker()
-    {
-        const auto session = open("dies_rendering");
-        lookAtOne(*session);
-        session->putFrame(2, sheet(Qt::green));
-        session->putFrame(3, sheet(Qt::blue));
-        const QSignalSpy frameDone(session.get(), &Worker::renderFrameDone);
-        const QSignalSpy done(session.get(), &Worker::renderDone);
-        const quint64 job =
-            session->render(QStringLiteral("1-3"), QStringLiteral("/tmp/a.%04d.png"), Quality::Final);
-        session->setScene(sceneLitFrom(7));
-        QTRY_COMPARE_WITH_TIMEOUT(done.count(), 1, 10000);
-        QCOMPARE(done[0], (QList<QVariant>{job, QStringLiteral("finished"), 3, 3, 0}));
-        QCOMPARE(frameDone.count(), 1);
-        QStringList asked;
-        QVector<double> under;
-        double light = -1;
-        const QList<QJsonObject> headers = received();
-        for (const QJsonObject& header : headers)
-        {
-            const QString type = header.value(QLatin1String("type")).toString();
-            if (type == QLatin1String("set_scene"))
-            {
-                light = header[QStringLiteral("scene")][QStringLiteral("lights")][0][QStringLiteral("x")]
-                            .toDouble();
-            }
-            if (type == QLatin1String("render"))
-            {
-                asked.append(header.value(QLatin1String("frames")).toString());
-                under.append(light);
-            }
-        }
-        QCOMPARE(asked, (QStringList{QStringLiteral("1-3"), QStringLiteral("2-3")}));
-        QCOMPARE(under, (QVector<double>{1, 1})); // the scene as it was when it was asked for
-        QCOMPARE(light, 7.0);
-    }
-
-    void aRefusedRenderEnds_data()
-    {
-        QTest::addColumn<QString>("frames");
-        QTest::addColumn<QString>("output");
-        QTest::newRow("no frames") << ""
-                                   << "/tmp/a.%04d.png";
-        QTest::newRow("not a pattern") << "1"
-                                       << "/tmp/a.png";
-        QTest::newRow("relative") << "1"
-                                  << "a.%04d.png";
-        QTest::newRow("two numbers") << "1"
-                                     << "/tmp/%d.%04d.png";
-        QTest::newRow("by the worker") << "404"
-                                       << "/tmp/a.%04d.png";
-    }
-
-    void aRefusedRenderEnds()
-    {
-        QFETCH(QString, frames);
-        QFETCH(QString, output);
-        const auto session = open("good");
-        lookAtOne(*session);
-        const QSignalSpy done(session.get(), &Worker::renderDone);
-        const quint64 job = session->render(frames, output, Quality::Low);
-        QCOMPARE(done.count(), 0);
-        QTRY_COMPARE(done.count(), 1);
-        QCOMPARE(done[0][0].toULongLong(), job);
-        QCOMPARE(done[0][1].toString(), QStringLiteral("failed"));
-        QTRY_COMPARE(mProblems.size(), 1);
-    }
-
     void nothingOfLooksThatCannotBeReachesTheWorker()
     {
         const auto session = open("good");
@@ -449,57 +335,6 @@ private Q_SLOTS:
         QCOMPARE(last[QStringLiteral("crop")][QStringLiteral("x")].toDouble(), -100000.0);
         QCOMPARE(last[QStringLiteral("crop")][QStringLiteral("height")].toDouble(), 0.01);
     }
-
-private:
-    std::unique_ptr<WorkerSession> open(const QByteArray& script)
-    {
-        qputenv("LAMPBLACK_FAKE", script);
-        auto session = std::make_unique<WorkerSession>(
-            Interpreter{QStringLiteral(LAMPBLACK_FAKE_WORKER), QStringLiteral("the test")});
-        watch(*session);
-        session->start();
-        return session;
-    }
-
-    void watch(WorkerSession& session)
-    {
-        connect(&session, &Worker::imageArrived, this,
-                [this](const PreviewImage& image) { mImages.append(image); });
-        connect(&session, &Worker::problem, this,
-                [this](const UserError& error) { mProblems.append(error); });
-    }
-
-    static void lookAtOne(WorkerSession& session)
-    {
-        session.putFrame(1, sheet(Qt::red));
-        session.setScene(sceneLitFrom(1));
-        session.requestPreview(1, Show::Lit, QRectF(0, 0, Side, Side), QSize(Side, Side));
-    }
-
-    QList<QJsonObject> received() const
-    {
-        QFile log(mFolder->filePath(QStringLiteral("received")));
-        (void)log.open(QIODevice::ReadOnly);
-        QList<QJsonObject> headers;
-        const QList<QByteArray> lines = log.readAll().split('\n');
-        for (const QByteArray& line : lines)
-        {
-            if (!line.isEmpty())
-            {
-                headers.append(QJsonDocument::fromJson(line).object());
-            }
-        }
-        return headers;
-    }
-
-    int launchesCounted() const
-    {
-        return int(QFileInfo(mFolder->filePath(QStringLiteral("launches"))).size());
-    }
-
-    std::unique_ptr<QTemporaryDir> mFolder;
-    QVector<PreviewImage> mImages;
-    QVector<UserError> mProblems;
 };
 
 QTEST_GUILESS_MAIN(TestWorkerSession)
