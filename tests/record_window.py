@@ -1,4 +1,4 @@
-"""Take the manual's pictures of the real Pencil2D, and record strokes that are drawn in the light.
+"""Take the manual's pictures of the real Pencil2D, and record a dragged light, and strokes in it.
 
 python tests/record_window.py docs/images
 """
@@ -29,6 +29,13 @@ SIDE, COLOURS = 340, 192
 EVERY = 4
 """Moves of the pen from one picture to the next."""
 MOVE_MS, PAUSE_MS, LIT_MS = 60, 300, 2500
+
+WHOLE = (0.0, 60.0, 640.0, 580.0)
+DRAGGED = (480, 435)
+MOVES, FOLLOW_S, DRAG_MS = 18, 0.4, 80
+"""Steps of the dragged light, seconds that each is given to be lit, and how long it is shown."""
+SCARF = (382.0, 430.0)
+"""On the edge of the scarf on the belly; canvas pixels."""
 
 Place = tuple[float, float]
 
@@ -84,6 +91,51 @@ def take_keys(window: Pencil2D, folder: Path) -> None:
     take(window, folder, "keys")
 
 
+def take_depth(window: Pencil2D, folder: Path) -> None:
+    """The view *Depth*, with one edge that was clicked."""
+    light_up(window)
+    window.click(VIEW + "depth")
+    settled(window)
+    window.click_at(*Canvas(window).screen(*SCARF))
+    settled(window)
+    take(window, folder, "depth")
+    window.click(VIEW + "lit")
+    settled(window)
+
+
+def record_drag(window: Pencil2D, folder: Path) -> None:
+    """Write ``pencil2d-drag.gif``: a light is dragged around the character's head."""
+    canvas = Canvas(window)
+    light_up(window)
+    drag_light(window, canvas, around(0))
+    shown = []
+    places = [canvas.screen(*around(step / MOVES)) for step in range(MOVES + 1)]
+    for _ in window.drag(places, pause=FOLLOW_S):
+        picture = Image.fromarray(canvas.crop(*WHOLE))
+        shown.append((picture.resize(DRAGGED, Image.Resampling.LANCZOS), DRAG_MS))
+    settled(window)
+    write_gif(folder / "pencil2d-drag.gif", [*shown, *shown[::-1]])
+
+
+def around(share: float) -> Place:
+    """A place on the way of the light over the head; canvas pixels."""
+    turn = math.pi * (1 + share)
+    return 320 + 250 * math.cos(turn), 300 + 200 * math.sin(turn)
+
+
+def write_gif(path: Path, shown: list[tuple[Image.Image, int]]) -> None:
+    """Write pictures, each with the milliseconds that it is shown."""
+    palette = shown[-1][0].quantize(COLOURS)
+    first, *others = (
+        picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture, _ in shown
+    )
+    with atomic_file(path) as file:
+        first.save(
+            file, "GIF", save_all=True, append_images=others, loop=0,
+            duration=[milliseconds for _, milliseconds in shown],
+        )  # fmt: skip
+
+
 def strokes() -> Iterator[list[Place]]:
     """A heart on the belly, and stripes on the fur beside it; canvas pixels."""
     for side in (-1, 1):
@@ -123,15 +175,7 @@ def record_drawing(window: Pencil2D, folder: Path) -> None:
     window.click("lampblackButton")
     settled(window)
     shoot(LIT_MS)
-    palette = shown[-1][0].quantize(COLOURS)
-    first, *others = (
-        picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture, _ in shown
-    )
-    with atomic_file(folder / "pencil2d-drawing.gif") as file:
-        first.save(
-            file, "GIF", save_all=True, append_images=others, loop=0,
-            duration=[milliseconds for _, milliseconds in shown],
-        )  # fmt: skip
+    write_gif(folder / "pencil2d-drawing.gif", shown)
 
 
 def main(target: Path) -> int:
@@ -141,7 +185,7 @@ def main(target: Path) -> int:
     support.window.WINDOW = SIZE
     with tempfile.TemporaryDirectory() as name, closing(Display(Path(name))) as display:
         folder = Path(name)
-        projects = [folder / f"{number}" for number in range(3)]
+        projects = [folder / f"{number}" for number in range(5)]
         for project in projects:
             project.mkdir()
             shutil.move(project_in(folder), project / "walk.pclx")
@@ -153,6 +197,10 @@ def main(target: Path) -> int:
             take_light_and_floor(window, target)
             window.open(opened[2])
             take_keys(window, target)
+            window.open(opened[3])
+            take_depth(window, target)
+            window.open(opened[4])
+            record_drag(window, target)
     return 0
 
 
