@@ -415,6 +415,7 @@ private Q_SLOTS:
 
     void aLongCameraIsReadBetweenTheArtistsEvents()
     {
+        trigger("actionSave"); // else Pencil2D may ask whether to
         QSignalSpy opened(mHost, &Host::projectOpened);
         QSignalSpy layers(mHost, &Host::layersChanged);
         QSignalSpy scrubbed(mParts.editor, SIGNAL(scrubbed(int)));
