@@ -16,9 +16,8 @@ from lampblack.render import cards, child, denoise, stage, survey, trace, trial
 from lampblack.render.device import Card
 from lampblack.render.passes import LightPasses
 
-LATER = 3
-"""Sources of light that it traces before it fails: those of a drawing with a light and ambient, and
-one of the next."""
+LATER = 1
+"""Renders before it fails: those of one drawing, whose lights are traced as one."""
 CARD = Card("cuda", "Paper Card", "CUDA_paper_00")
 
 
