@@ -154,3 +154,22 @@ def difference(a: Picture, b: Picture) -> NDArray[np.float64]:
     )
     worst: NDArray[np.float64] = np.abs(one - other).max(axis=2)
     return worst
+
+
+PAN = (
+    '<camera frame="1" r="0" s="1" dx="0" dy="0"/><camera frame="5" r="0" s="1" dx="-41" dy="18"/>'
+)
+FILES = {
+    "far.png": png(blob(190, 150, 1)),
+    "ball.png": png(draw_ball(90)),
+    "near.png": png(blob(40, 30, 3, 128)),
+    "secret.png": png(blob(40, 30, 4)),
+}
+LAYERS = [
+    layer(2, "far", [image(1, "far.png", -95, -75)]),
+    layer(3, "figure", [image(1, "ball.png", -60, -50), image(4, "ball.png", -30, -40)]),
+    layer(4, "hidden", [image(1, "secret.png")], visible=False),
+    layer(5, "near", [image(2, "near.png", -70, 10), image(5, "near.png", 900, 10)]),
+]
+BALL = layer(2, "figure", [image(1, "ball.png")])
+ROLES: dict[str, LayerRole] = {"figure": "character"}

@@ -64,6 +64,10 @@ def test_a_stroke_marks_the_cells_under_it() -> None:
     expected[7:10, 5:8] = ROUND * STRENGTH
     assert np.array_equal(cells, expected)
     assert stroke_cells([], (16, 32), canvas) is None
+    far = BendStroke(np.array([[-1e12, 8], [1e12, 8]], np.float32), ROUND)  # of a hostile scene
+    across = stroke_cells([far], (16, 32), canvas)
+    assert across is not None
+    assert (across[7:10] == ROUND * STRENGTH).all()
     beyond = stroke_cells([BendStroke(np.full((2, 2), 1e6, np.float32), ROUND)], (16, 32), canvas)
     assert beyond is not None
     assert not beyond.any()

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lampblack.choices import LayerRole
 from lampblack.errors import LampblackWarning, ProjectError
 from lampblack.project import read_project
 from lampblack.project.archive import MAX_XML_BYTES
@@ -19,8 +18,12 @@ from support.command_line import files
 from support.drawings import draw_ball
 from support.projects import (
     ARCH,
+    BALL,
+    FILES,
+    LAYERS,
+    PAN,
+    ROLES,
     STILL,
-    blob,
     document,
     image,
     layer,
@@ -31,25 +34,6 @@ from support.projects import (
 )
 
 Picture = NDArray[np.uint8]
-PAN = (
-    '<camera frame="1" r="0" s="1" dx="0" dy="0"/><camera frame="5" r="0" s="1" dx="-41" dy="18"/>'
-)
-
-
-FILES = {
-    "far.png": png(blob(190, 150, 1)),
-    "ball.png": png(draw_ball(90)),
-    "near.png": png(blob(40, 30, 3, 128)),
-    "secret.png": png(blob(40, 30, 4)),
-}
-LAYERS = [
-    layer(2, "far", [image(1, "far.png", -95, -75)]),
-    layer(3, "figure", [image(1, "ball.png", -60, -50), image(4, "ball.png", -30, -40)]),
-    layer(4, "hidden", [image(1, "secret.png")], visible=False),
-    layer(5, "near", [image(2, "near.png", -70, 10), image(5, "near.png", 900, 10)]),
-]
-BALL = layer(2, "figure", [image(1, "ball.png")])
-ROLES: dict[str, LayerRole] = {"figure": "character"}
 
 
 def test_a_frame_that_the_camera_flattens_is_empty(tmp_path: Path) -> None:

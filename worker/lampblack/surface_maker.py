@@ -151,18 +151,17 @@ class SurfaceMaker:
     ) -> Prediction:
         """The prediction, its depth and edges at low resolution. What hints change is added to the
         steadied prediction without them: neighbours do not know them."""
-        steady = prediction = self._predict(drawing, (), progress)
-        if neighbours is not None:
-            here = _thumbnail(drawing, prediction)
-            steady = self._temporal_filter.smooth_prediction(
-                prediction, drawing.mask, here, neighbours.load()
-            )
         strokes = bend_strokes(hints)
+        if neighbours is None:
+            return self._predict(drawing, strokes, progress)
+        prediction = self._predict(drawing, (), progress)
+        here = _thumbnail(drawing, prediction)
+        steady = self._temporal_filter.smooth_prediction(
+            prediction, drawing.mask, here, neighbours.load()
+        )
         if not strokes:
             return steady
         told = self._predict(drawing, strokes, progress)
-        if neighbours is None:
-            return told
         normals = steady.normals + told.normals - prediction.normals
         length = np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), np.float32(1e-6))
         return replace(steady, normals=normals / length)

@@ -48,7 +48,9 @@ def stroke_cells(
     scale = np.array([canvas.size[1] / size[1], canvas.size[0] / size[0]])
     corner = np.array([part.start for part in canvas.inner[::-1]])
     for stroke in strokes:
-        row, column = cells_under((stroke.points * scale + corner) / COARSE, cells.shape)
+        points = (stroke.points * scale + corner) / COARSE
+        points = np.clip(points, -max(cells.shape), 2 * max(cells.shape))  # bounds their number
+        row, column = cells_under(points, cells.shape)
         cells[row, column] = STRENGTH * stroke.bend
     return cells
 
