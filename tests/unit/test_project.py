@@ -86,6 +86,16 @@ def test_opacity_of_a_keyframe_counts(tmp_path: Path) -> None:
     assert shot.cel(shot.frames[0]).pixels[..., 3].max() == round(255 * 0.25)
 
 
+@pytest.mark.parametrize(("version", "frames"), [("0.6.6", [1, 2, 3]), ("0.7.0", [1, 3])])
+def test_a_key_that_names_no_file_is_blank_until_07_and_none_since(
+    tmp_path: Path, version: str, frames: list[int]
+) -> None:
+    keys = [image(1, "ball.png"), 'frame="2"', image(3, "ball.png")]
+    xml = document([layer(2, "ball", keys)], version=version)
+    project, _ = read_project(write_project(tmp_path / "w.pclx", xml, FILES))
+    assert [key.frame for key in project.layers[0].keys] == frames
+
+
 def test_roles_say_what_is_lit_and_what_lies_around(tmp_path: Path) -> None:
     line = layer(6, "line", [image(1, "near.png", -70, 10)])
     lit = layer(7, "Lit", [image(1, "secret.png")])

@@ -74,9 +74,11 @@ def parse(xml: bytes, name: str) -> Project:
         )
     if len(described) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.", "Merge some of them.")
-    layers = tuple(_layer(e, KINDS[e.get("type", "")]) for e in described if e.get("type") in KINDS)
     moving = [element for element in described if element.get("type") == CAMERA]
-    between: Between = "parameters" if _is_new(root, moving) else "matrices"
+    is_new = _is_new(root, moving)
+    drawn = [element for element in described if element.get("type") in KINDS]
+    layers = tuple(_layer(element, KINDS[element.attrib["type"]], is_new) for element in drawn)
+    between: Between = "parameters" if is_new else "matrices"
     cameras = tuple(_camera(element, between) for element in moving) or (DEFAULT_CAMERA,)
     keyed: list[tuple[Key, ...] | tuple[CameraKey, ...]] = [thing.keys for thing in layers]
     keyed += [camera.keys for camera in cameras]
@@ -89,17 +91,20 @@ def parse(xml: bytes, name: str) -> Project:
     return Project(layers, cameras, length, whole(root.find("projectdata/fps"), "value", 12))
 
 
-def _layer(element: Element, kind: Kind) -> Layer:
+def _layer(element: Element, kind: Kind, is_new: bool) -> Layer:
     name = _name(element)
     keys: dict[int, Key] = {}
     for image in _bounded(element.findall("image"), name):
+        inline = kind == "vector" and image.get("src") is None
+        if is_new and not inline and not image.get("src"):
+            continue  # a blank key before Pencil2D 0.7, and no key since
         key = Key(
             frame=_frame(image, name),
             file=image.get("src", ""),
             left=whole(image, "topLeftX", 0),
             top=whole(image, "topLeftY", 0),
             opacity=min(1.0, max(0.0, number(image, "opacity", 1.0))),
-            inline=tostring(image) if kind == "vector" and image.get("src") is None else b"",
+            inline=tostring(image) if inline else b"",
         )
         keys[key.frame] = key
     ordered = tuple(keys[frame] for frame in sorted(keys))
