@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -15,7 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lampblack.drawing import load_picture
+from lampblack.drawing import load_picture, save_picture
+from lampblack.scene import default_scene, encode_scene
 from support.command_line import Run, files
 from support.drawings import draw_ball
 from support.projects import document, image, layer, png, walk, write_project
@@ -44,6 +46,37 @@ def test_openjd_runs_the_job(run: Run, tmp_path: Path) -> None:
     pictures = [load_picture(out / f"walk.000{n}.png") for n in range(1, 5)]
     assert np.array_equal(pictures[0], pictures[3])
     assert not pictures[2].any()
+
+
+@pytest.mark.skipif(not (BIN / "openjd").exists(), reason="openjd-cli is not installed")
+def test_openjd_maps_the_paths_of_a_job(run: Run, tmp_path: Path) -> None:
+    """Machines of a farm have the shot in another folder than the artist."""
+    artist, farm = tmp_path / "artist", tmp_path / "mounted" / "shot 7"
+    (artist / "drawn").mkdir(parents=True)
+    for number in (1, 2):
+        save_picture(artist / "drawn" / f"w.{number:04d}.png", draw_ball(64 - 8 * number))
+    (artist / "light.json").write_bytes(encode_scene(default_scene(64, 64)))
+    target = tmp_path / "job.yaml"
+    words = ("--scene", artist / "light.json", "--to", artist / "lit" / "w.%04d.png")
+    assert run("job", artist / "drawn" / "w.%04d.png", "-o", target, *words).code == 0
+    farm.parent.mkdir()
+    artist.rename(farm)
+    rule = {
+        "source_path_format": "POSIX",
+        "source_path": str(artist),
+        "destination_path": str(farm),
+    }
+    rules = tmp_path / "rules.json"
+    rules.write_text(json.dumps({"version": "pathmapping-1.0", "path_mapping_rules": [rule]}))
+    done = subprocess.run(
+        [BIN / "openjd", "run", target, "--step", "Light", "-p", f"Lampblack={BIN}/lampblack",
+         "--path-mapping-rules", f"file://{rules}"],
+        capture_output=True, text=True, timeout=240, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    assert files(farm / "lit") == {"w.0001.png", "w.0002.png"}
+    assert load_picture(farm / "lit" / "w.0001.png").any()
+    assert not artist.exists()
 
 
 @pytest.fixture

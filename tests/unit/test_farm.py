@@ -30,10 +30,11 @@ from lampblack.finals.settings import RenderSettings
 from lampblack.finals.targets import Targets
 from lampblack.finals.tasks import stamps
 from lampblack.pipeline import Pipeline
+from lampblack.scene import default_scene, encode_scene
 from lampblack.shot import ShotFrame
 from support.command_line import Run
 from support.drawings import draw_ball
-from support.projects import walk
+from support.projects import document, image, layer, png, walk, write_project
 
 
 def test_tasks_hold_each_drawing_whole() -> None:
@@ -92,6 +93,41 @@ def test_a_job_names_files_and_folders_that_exist(run: Run, tmp_path: Path) -> N
         assert paths["Output"] == ("DIRECTORY", "lit.v2")
     (step,) = template["steps"]
     assert "{{Param.Input}}" in step["script"]["actions"]["onRun"]["args"]
+
+
+def collected(template: Path) -> set[str]:
+    """The files that a farm copies: as AWS Deadline Cloud collects attachments of a job."""
+    found: set[Path] = set()
+    for parameter in yaml.safe_load(template.read_text())["parameterDefinitions"]:
+        if parameter["type"] == "PATH" and "IN" in parameter["dataFlow"]:
+            path = template.parent / parameter["default"]
+            is_file = parameter["objectType"] == "FILE"
+            assert path.is_file() if is_file else path.is_dir()
+            found |= {path} if is_file else {one for one in path.rglob("*") if one.is_file()}
+    return {str(path.relative_to(template.parent)) for path in found}
+
+
+@pytest.mark.parametrize("kind", ["pclx", "pcl", "pictures"])
+def test_a_farm_gets_every_file_that_is_read(run: Run, tmp_path: Path, kind: str) -> None:
+    """Also those that lie beside a project."""
+    wanted, words = {f"w.{kind}", f"w.{kind}.lampblack.json"}, []
+    source = tmp_path / f"w.{kind}"
+    if kind == "pictures":
+        source = tmp_path / "seq" / "w.%04d.png"
+        source.parent.mkdir()
+        wanted = {"seq/w.0001.png", "mask.png", "ink.png", "light.json"}
+        for name in wanted - {"light.json"}:
+            save_picture(tmp_path / name, draw_ball(64))
+        words = [f"--{name}={tmp_path / name}.png" for name in ("mask", "ink")]
+        words.append(f"--scene={tmp_path / 'light.json'}")
+    else:
+        xml = document([layer(2, "ball", [image(1, "1.png", -40, -40)])], size=(96, 96))
+        write_project(source, xml, {"1.png": png(draw_ball(80))})
+        wanted |= {"w.pcl.data/1.png"} if kind == "pcl" else set()
+    scene = tmp_path / ("light.json" if kind == "pictures" else f"{source.name}.lampblack.json")
+    scene.write_bytes(encode_scene(default_scene(96, 96)))
+    assert run("job", source, "-o", tmp_path / "job.yaml", *words).code == 0
+    assert collected(tmp_path / "job.yaml") == wanted
 
 
 def test_braces_in_names_are_only_names(run: Run, tmp_path: Path) -> None:

@@ -54,11 +54,13 @@ def job(
     """
     from ..farm.tasks import cut_into_tasks
     from ..farm.template import job_template, paths_outside, write_yaml
-    from ..finals.resolve import resolve_shot
+    from ..finals.resolve import resolve_shot, scene_file
 
     check_suffix(output, ".yaml", ".yml")
     lit = to or str(Path(settings.inputs[0]).parent / "lit")
-    settings = msgspec.structs.replace(settings, output=lit).absolute()
+    scene = scene_file(settings)
+    named = {"output": lit, "scene": None if scene is None else str(scene)}
+    settings = msgspec.structs.replace(settings, **named).absolute()
     frames = resolve_shot(settings).frames
     tasks = cut_into_tasks(frames, frames_per_task)
     folder = output.absolute().parent

@@ -31,7 +31,7 @@ def job_template(
     ordinary ``lampblack render`` commands.
 
     Args:
-        settings: has one input, and absolute paths.
+        settings: has one input, absolute paths, and names its scene file.
         tasks: frame numbers of each task.
         folder: the template's folder. Paths in it are defaults of parameters; other paths must be
             given when the job is submitted (``paths_outside``).
@@ -136,6 +136,8 @@ def _paths(settings: RenderSettings) -> dict[str, _Path]:
     (source,) = settings.inputs
     paths: dict[str, str | None] = {"Input": source, "Output": settings.output}
     paths |= {name: getattr(settings, field) for name, field in _FILES.items()}
+    if Path(source).suffix.lower() == ".pcl":
+        paths["InputData"] = f"{source}.data"  # read beside it
     return {name: _Path.of(path) for name, path in paths.items() if path is not None}
 
 

@@ -87,13 +87,13 @@ def resolve_shot(settings: RenderSettings, scene: Scene | None = None) -> Resolv
     Raises:
         LampblackError: an input is missing or malformed.
     """
-    if scene is None and settings.scene is not None:
-        scene = read_scene(Path(settings.scene))
+    named = scene_file(settings)
+    if scene is None and named is not None:
+        scene = read_scene(named)
     shot: Shot
     single = False  # a frame of a project may well be blank
     if _is_project(settings.inputs):
         _refuse_options_of_pictures(settings)
-        scene = scene or _sidecar(settings.inputs[0])
         shot = _project_shot(settings, scene)
         sources = [Path(settings.inputs[0])]
     else:
@@ -141,10 +141,16 @@ def _picture_shot(
     return SheetShot(found[0].path, cells, mask, ink)
 
 
-def _sidecar(project: str) -> Scene | None:
-    """The scene file of the Pencil2D plugin, next to ``project``."""
-    path = Path(f"{project}{SIDECAR_SUFFIX}")
-    return read_scene(path) if path.exists() else None
+def scene_file(settings: RenderSettings) -> Path | None:
+    """The scene file that is named, or that of the Pencil2D plugin next to a project.
+
+    Raises:
+        LampblackError: a project is named with something else.
+    """
+    if settings.scene is not None:
+        return Path(settings.scene)
+    beside = Path(f"{settings.inputs[0]}{SIDECAR_SUFFIX}")
+    return beside if _is_project(settings.inputs) and beside.exists() else None
 
 
 def _is_project(inputs: Sequence[str]) -> bool:
