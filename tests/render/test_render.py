@@ -1,16 +1,8 @@
-"""Cycles in its child: calibration, falloff, alignment, floor, and life after a crash."""
+"""Cycles in its child: calibration, falloff, alignment and floor."""
 
 from __future__ import annotations
 
-import os
-import signal
-import subprocess
-import sys
-import tempfile
-import threading
-import time
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,14 +10,12 @@ import pytest
 from lampblack.bench.memory import processor_seconds
 from lampblack.colour import hex_linear
 from lampblack.composite.resample import Band, enlarge
-from lampblack.errors import RenderError
 from lampblack.render.client import RenderChild
 from lampblack.render.passes import LightPasses, Passes
 from lampblack.render.quality import QUALITIES, Quality, Sampling
 from lampblack.render.request import RenderRequest
 from lampblack.scene import Ambient, AreaLight, Canvas, Floor
 from lampblack.surface.relief import Relief
-from support.processes import gone
 from support.surfaces import Heights, ball, plane, surface
 
 
@@ -293,85 +283,3 @@ def test_degenerate_relief_gives_finite_light(child: RenderChild) -> None:
             for array in (source.diffuse, source.glossy, source.floor, source.open_floor):
                 assert array is not None
                 assert np.isfinite(array).all()
-
-
-def slow_request() -> RenderRequest:
-    return RenderRequest(
-        ball(96, 96, (48, 48), 40),
-        Canvas(96, 96),
-        (AreaLight(10, 10, 60),),
-        quality=quality(100_000),
-    )
-
-
-def test_killed_child_is_told_and_replaced() -> None:
-    with RenderChild() as child:
-        quick = replace(slow_request(), quality=quality(1))
-        first = child.render(quick)
-        pid = child.pid
-        assert pid is not None
-        timer = threading.Timer(0.7, os.kill, (pid, signal.SIGKILL))
-        timer.start()
-        with pytest.raises(RenderError, match="stopped unexpectedly") as caught:
-            child.render(slow_request())
-        assert caught.value.remedy
-        again = child.render(quick)
-        assert child.pid != pid
-        assert abs(again.lights[0].diffuse - first.lights[0].diffuse).max() < 1e-4
-
-
-def test_interrupt_leaves_no_orphan() -> None:
-    with RenderChild() as child:
-        pid = child.pid
-        assert pid is not None
-        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
-        with pytest.raises(KeyboardInterrupt):
-            child.render(slow_request())
-        assert gone(pid, 5)
-
-
-@pytest.mark.parametrize("stopped", [False, True])
-def test_child_ends_with_a_parent_that_was_killed(stopped: bool) -> None:
-    """Not with the thread that needed it first."""
-    code = """
-import threading, time
-from lampblack.render.client import RenderChild
-from lampblack.render.passes import LightPasses, Passes
-child = RenderChild()
-starter = threading.Thread(target=child.start)
-starter.start()
-starter.join()
-print(child.pid, flush=True)
-time.sleep(120)
-"""
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as parent:
-        assert parent.stdout is not None
-        pid = int(parent.stdout.readline())
-        while "/bpy/" not in Path(f"/proc/{pid}/maps").read_text():
-            time.sleep(0.05)
-        if stopped:
-            os.kill(pid, signal.SIGSTOP)
-        parent.kill()
-    assert gone(pid, 3)
-
-
-def test_a_child_that_is_stopped_is_replaced_and_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    request = RenderRequest(
-        ball(48, 48, (24, 24), 20), Canvas(48, 48), (AreaLight(8, 8, 40),), quality=quality(4)
-    )
-    with RenderChild() as own:
-        before = own.render(request).ambient.diffuse
-        stopped = own.pid
-        assert stopped is not None
-        os.kill(stopped, signal.SIGSTOP)
-        with pytest.raises(RenderError) as told:
-            own.render(request)
-        assert "it was stopped" in told.value.details
-        assert gone(stopped, 5)
-        assert np.array_equal(own.render(request).ambient.diffuse, before)
-        assert len(list(tmp_path.iterdir())) == 1
-    assert not list(tmp_path.iterdir())

@@ -169,7 +169,7 @@ class FakeChild(RenderChild):
 @pytest.fixture
 def fake_child(monkeypatch: pytest.MonkeyPatch) -> FakeChild:
     child = FakeChild()
-    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda *given: child)
+    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda **given: child)
     return child
 
 

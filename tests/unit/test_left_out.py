@@ -42,7 +42,7 @@ def test_light_that_emissive_colours_throw(
     emission: int,
 ) -> None:  # fmt: skip
     for module in ("pipeline", "finals.scene_file"):
-        monkeypatch.setattr(f"lampblack.{module}.RenderChild", lambda *_: Unrendered())
+        monkeypatch.setattr(f"lampblack.{module}.RenderChild", lambda **_: Unrendered())
     save_picture(tmp_path / "ball.png", draw_ball(64, (200, 60, 60)))
     scene = tmp_path / "scene.json"
     scene.write_text(

@@ -291,7 +291,7 @@ def running(tmp_path: Path) -> Iterator[Stage]:
     stage.greet(ONE)
     stage.service.preview.start()
     yield stage
-    stage.service.preview.close()
+    stage.service.close()
 
 
 def test_threads_report_what_they_meet_and_live_on(running: Stage) -> None:

@@ -48,7 +48,7 @@ def two_sided(tmp_path: Path) -> Path:
 def test_the_relief_turns_with_its_colours(
     run: Run, tmp_path: Path, two_sided: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda *given: Daylight())
+    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda **given: Daylight())
     folder = tmp_path / "turned"
     done = run("turntable", two_sided, "-o", folder, "--pictures", 4, "--size", 96)
     assert done.code == 0, done.err
@@ -76,7 +76,7 @@ def test_the_relief_turns_with_its_colours(
 def test_a_gif_is_whole_and_loops(
     run: Run, tmp_path: Path, two_sided: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda *given: Daylight())
+    monkeypatch.setattr("lampblack.pipeline.RenderChild", lambda **given: Daylight())
     target = tmp_path / "ball.gif"
     assert run("turntable", two_sided, "-o", target, "--pictures", 8, "--size", 64).code == 0
     with Image.open(target) as image:

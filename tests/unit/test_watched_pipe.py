@@ -24,6 +24,15 @@ end = time.monotonic() + 3
 while time.monotonic() < end: pass
 sys.stdout.buffer.write(b"x")
 """
+HINDERED = """
+import sys, time
+end = time.monotonic() + 4
+while time.monotonic() < end:
+    time.sleep(0.1)
+    busy = time.process_time() + 0.003
+    while time.process_time() < busy: pass
+sys.stdout.buffer.write(b"x")
+"""
 IDLE = "import time; time.sleep(60)"
 
 
@@ -32,6 +41,8 @@ def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(watched_pipe, "LOOK_SECONDS", 0.1)
     monkeypatch.setattr(watched_pipe, "STOPPED_SECONDS", 0.5)
     monkeypatch.setattr(watched_pipe, "IDLE_SECONDS", 1.5)
+    monkeypatch.setattr(watched_pipe, "SLOW_SECONDS", 1.0)
+    monkeypatch.setattr(watched_pipe, "SLOW_SHARE", 0.1)
 
 
 @contextmanager
@@ -46,10 +57,15 @@ def started(program: str) -> Iterator[subprocess.Popen[bytes]]:
             process.kill()
 
 
-def test_an_answer_that_takes_its_time_is_waited_for() -> None:
-    with started(BUSY) as process:
-        pipe = WatchedPipe(cast(FileIO, process.stdout), process.pid)
+@pytest.mark.parametrize(("program", "slow"), [(BUSY, False), (HINDERED, True)])
+def test_an_answer_that_takes_its_time_is_waited_for(program: str, slow: bool) -> None:
+    """It is told of a process that hardly gets to work."""
+    told: list[str] = []
+    with started(program) as process:
+        stdout = cast(FileIO, process.stdout)
+        pipe = WatchedPipe(stdout, process.pid, lambda: told.append("slow"))
         assert pipe.readinto(memoryview(bytearray(1))) == 1
+    assert bool(told) == slow
 
 
 @pytest.mark.parametrize(("program", "stop"), [(IDLE, False), (BUSY, True)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 PAUSE_SECONDS = 0.5
 
@@ -25,3 +25,12 @@ def lasting_thread(
                 time.sleep(PAUSE_SECONDS)
 
     return threading.Thread(target=run_on, name=name, daemon=True)
+
+
+def join_all(threads: Iterable[threading.Thread], seconds: float) -> None:
+    """Wait for the end of ``threads``, but for all of them at most ``seconds``: a network or a
+    kernel cannot be interrupted."""
+    until = time.monotonic() + seconds
+    for thread in threads:
+        if thread.is_alive():
+            thread.join(max(0.0, until - time.monotonic()))

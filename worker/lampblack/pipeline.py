@@ -63,8 +63,7 @@ class Pipeline:
         options: how surfaces are made.
         predictor: None is the shipped network.
         renderer: None is Cycles in a child process.
-        niceness: of the child process, 0 to 19.
-        device: what it traces on.
+        device: what the child process traces on.
 
     Attributes:
         surfaces: makes normals and heights.
@@ -77,11 +76,10 @@ class Pipeline:
         *,
         predictor: Predictor | None = None,
         renderer: Renderer | None = None,
-        niceness: int = 0,
         device: DeviceChoice = "cpu",
     ) -> None:
         self.surfaces = SurfaceMaker(cache, options or PipelineOptions(), predictor)
-        self.renderer: Renderer = renderer or RenderChild(niceness, device)
+        self.renderer: Renderer = renderer or RenderChild(device=device)
         self._light_passes = LightPassCache()
 
     def __enter__(self) -> Self:

@@ -46,3 +46,5 @@ def serve(
     # The drawing program has priority when both need a processor.
     os.nice(5)
     serve_forever(connection, parent_pid, device)
+    # The drawing program has ended. An interpreter would wait for what its threads compute.
+    os._exit(0)

@@ -35,6 +35,9 @@ class LivePreview:
         renderer: used only by this preview, and closed with it.
         pipeline: prepares drawings; its renderer is not used.
         clock: monotonic seconds.
+
+    Attributes:
+        threads: those that ``start`` starts.
     """
 
     def __init__(
@@ -50,24 +53,21 @@ class LivePreview:
         self.tracer = Tracer(self.state, self.painter, renderer, self._report_to_all)
         self.preparer = Preparer(self.state, pipeline, listener.on_drawing)
         self._listener = listener
-        self._threads = [
+        self.threads = [
             lasting_thread(type(part).__name__, part.run, self._report_to_all)
             for part in (self.painter, self.tracer, self.preparer)
         ]
 
     def start(self) -> None:
         """Start the threads."""
-        for thread in self._threads:
+        for thread in self.threads:
             thread.start()
 
-    def close(self) -> None:
-        """End the threads and the renderer."""
+    def stop(self) -> None:
+        """Tell the threads and the renderer to end."""
         self.state.close()
         self.painter.close()
         self.renderer.kill()
-        for thread in self._threads:
-            if thread.is_alive():
-                thread.join(2)
 
     def _report_to_all(self, error: Exception) -> None:
         for session in list(self.state.views):

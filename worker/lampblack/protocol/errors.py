@@ -41,6 +41,7 @@ class ErrorCode(StrEnum):
     NOTHING_DRAWN = "nothing_drawn"
     DRAWING_WARNING = "drawing_warning"
     RENDER_RESTARTED = "render_restarted"
+    RENDER_SLOW = "render_slow"
     RENDER_FAILED = "render_failed"
     OUTPUT_FAILED = "output_failed"
     OUT_OF_MEMORY = "out_of_memory"
@@ -182,6 +183,10 @@ CATALOGUE: dict[ErrorCode, Entry] = {
     ErrorCode.DRAWING_WARNING: Entry("The frame was lit, with a warning.", "Read the message."),
     ErrorCode.RENDER_RESTARTED: Entry(
         "The renderer stopped and was started again. Nothing is lost.", "Go on working."
+    ),
+    ErrorCode.RENDER_SLOW: Entry(
+        "The renderer hardly gets to work: the machine is busy, or short of memory.",
+        "Wait, or close other programs.",
     ),
     ErrorCode.RENDER_FAILED: Entry(
         "The renderer failed on this frame, also after a new start.",

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import warnings
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from io import FileIO
@@ -56,6 +56,10 @@ KEPT_VARIABLES = (
     *("ONEAPI_DEVICE_SELECTOR", "ZE_AFFINITY_MASK"),
 )
 COMMAND = (sys.executable, "-I", "-m", "lampblack.render.child")
+SLOW = (
+    "The renderer hardly gets to work: the machine is busy, or short of memory. It is waited for; "
+    "other programs can be closed."
+)
 CARD_LOST = "The graphics card may have failed. From now on the processor is used."
 
 _STARTER = ThreadPoolExecutor(1, "render-starter")
@@ -79,6 +83,8 @@ class RenderChild:
 
     Attributes:
         spent: processor seconds of all children so far, by activity.
+        on_slow: called in the thread that waits for a child, if the machine keeps that child from
+            its work; once for each child. By default it warns.
 
     Example:
         >>> with RenderChild() as child:
@@ -89,13 +95,14 @@ class RenderChild:
         self._niceness = niceness
         self._wanted = device
         self._started: Started | None = None
-        self._killed = self._told = False
+        self._killed = self._told = self._slow = False
         self._surface: Surface | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._log: IO[bytes] | None = None
         self._folder: Path | None = None
         self._loaded = b""
         self.spent: dict[Activity, float] = defaultdict(float)
+        self.on_slow: Callable[[], None] = _warn_of_slowness
 
     def __enter__(self) -> Self:
         self.start()
@@ -258,7 +265,7 @@ class RenderChild:
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - lives as long as the child
         # Blender leaves its temporary folder behind when it is ended.
         self._folder = own_folder()
-        self._killed = False
+        self._killed = self._slow = False
         self._process = _STARTER.submit(
             subprocess.Popen,
             [*COMMAND, self._wanted, str(memory_path())],
@@ -367,7 +374,13 @@ class RenderChild:
     def _pipe(self, name: Literal["stdin", "stdout"]) -> WatchedPipe:
         """The child's end ``name``, unbuffered."""
         assert self._process is not None
-        return WatchedPipe(cast(FileIO, getattr(self._process, name)), self._process.pid)
+        end = cast(FileIO, getattr(self._process, name))
+        return WatchedPipe(end, self._process.pid, self._tell_slow)
+
+    def _tell_slow(self) -> None:
+        if not self._slow:
+            self._slow = True
+            self.on_slow()
 
     def _lost(self, error: Exception) -> RenderError:
         """Clean up after a dead child. Returns the error with its exit status and log."""
@@ -384,3 +397,7 @@ class RenderChild:
             remedy += " If the machine ran out of memory, choose a lower quality."
         details = f"exit status {status}; {error}\n{log}".strip()
         return RenderError("The renderer stopped unexpectedly.", remedy, details)
+
+
+def _warn_of_slowness() -> None:
+    warnings.warn(SLOW, LampblackWarning, stacklevel=2)

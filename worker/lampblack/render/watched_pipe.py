@@ -6,12 +6,17 @@ from __future__ import annotations
 import os
 import select
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
 from io import FileIO
 from pathlib import Path
 
 LOOK_SECONDS = 0.5
 STOPPED_SECONDS = 3.0
-IDLE_SECONDS = 10.0
+IDLE_SECONDS = 8.0
+SLOW_SECONDS = 8.0
+SLOW_SHARE = 0.02
+"""Of one processor. A process that gets less of it hardly works."""
 
 
 class Stalled(OSError):
@@ -21,17 +26,22 @@ class Stalled(OSError):
 class WatchedPipe:
     """One end of a pipe to a process that owes an answer, or reads a request.
 
-    A process that was stopped (SIGSTOP), or that used no processor time for ``IDLE_SECONDS``
-    (a driver that hangs, a machine that swaps), is given up. Linux tells; elsewhere it is waited
-    for.
+    A process that was stopped (SIGSTOP) is given up, and one that did nothing for
+    ``IDLE_SECONDS``, as where a driver hangs. One that the machine keeps from its work (others use
+    the processor, or its memory is read back from the disk) is waited for. Linux tells; elsewhere
+    all are waited for.
+
+    Args:
+        slow: called each time that the process has hardly worked for ``SLOW_SECONDS``.
 
     Raises:
         Stalled: from ``readinto`` and ``write``.
     """
 
-    def __init__(self, pipe: FileIO, pid: int) -> None:
+    def __init__(self, pipe: FileIO, pid: int, slow: Callable[[], None] = lambda: None) -> None:
         self._pipe = pipe
-        self._process = Path(f"/proc/{pid}/stat")
+        self._process = Path(f"/proc/{pid}")
+        self._slow = slow
 
     def readinto(self, buffer: memoryview) -> int | None:
         """Read what is there; wait until there is something."""
@@ -44,27 +54,61 @@ class WatchedPipe:
         return self._pipe.write(data)
 
     def _wait(self, reading: list[FileIO], writing: list[FileIO]) -> None:
-        worked, used = time.monotonic(), -1
-        running = worked
+        began = running = worked = time.monotonic()
+        first, last = _Work.of(self._process), (-1, -1)
         while not any(select.select(reading, writing, [], LOOK_SECONDS)):
-            state, now = self._look()
-            if state in "Tt":
-                if time.monotonic() - running > STOPPED_SECONDS:
-                    raise Stalled("it was stopped")
-            else:
-                running = time.monotonic()
-            if now != used:
-                worked, used = time.monotonic(), now
-            elif time.monotonic() - worked > IDLE_SECONDS:
+            work, now = _Work.of(self._process), time.monotonic()
+            if work is None or first is None:
+                continue
+            if work.amount != last:
+                running = worked = now
+                last = work.amount
+            if not set(work.states) <= {"T", "t"}:
+                running = now
+            elif now - running > STOPPED_SECONDS:
+                raise Stalled("it was stopped")
+            if "R" in work.states:
+                worked = now
+            elif now - worked > IDLE_SECONDS:
                 raise Stalled(f"it did no work for {IDLE_SECONDS:.0f} seconds")
+            if now - began > SLOW_SECONDS and now - worked < IDLE_SECONDS / 2:
+                if work.seconds - first.seconds < SLOW_SHARE * (now - began):
+                    self._slow()
+                began, first = now, work
 
-    def _look(self) -> tuple[str, int]:
-        """The state of the process (proc(5)), and the processor time that it has used, in ticks."""
+
+@dataclass(frozen=True)
+class _Work:
+    """What a process has done so far (proc(5)).
+
+    Attributes:
+        states: a letter for each thread. R: it runs, or would if there were a free processor.
+        amount: processor time in ticks, and pages of memory that were read from a disk.
+    """
+
+    states: str
+    amount: tuple[int, int]
+
+    @staticmethod
+    def of(process: Path) -> _Work | None:
+        """None if the process has ended, or the system is not Linux."""
         try:
-            fields = self._process.read_text(encoding="utf-8").rpartition(")")[2].split()
-        except OSError:
-            return "", time.monotonic_ns()  # not Linux: it counts as at work
-        return fields[0], int(fields[11]) + int(fields[12])
+            fields = _fields(process)
+            states = "".join(_fields(thread)[0] for thread in (process / "task").iterdir())
+        except (OSError, IndexError):
+            return None
+        return _Work(states, (int(fields[11]) + int(fields[12]), int(fields[9])))
+
+    @property
+    def seconds(self) -> float:
+        """Processor time."""
+        return self.amount[0] / os.sysconf("SC_CLK_TCK")
+
+
+def _fields(process: Path) -> list[str]:
+    """From its state on."""
+    text = (process / "stat").read_text(encoding="utf-8", errors="replace")
+    return text.rpartition(")")[2].split()
 
 
 def unblocked(pipe: FileIO) -> FileIO:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import queue
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from ..camera import Affine
@@ -71,8 +72,8 @@ class RigSketches:
                 question.session, error_message(ErrorCode.TOO_MANY_JOBS, request=about), None
             )
 
-    def close(self) -> None:
-        """End the thread after the picture that it makes."""
+    def stop(self) -> None:
+        """Tell the thread to end after the picture that it makes."""
         if self._thread is None:
             return
         while True:
@@ -80,8 +81,8 @@ class RigSketches:
                 self._waiting.put_nowait(None)
                 break
             except queue.Full:
-                self._waiting.get_nowait()
-        self._thread.join(2)
+                with suppress(queue.Empty):
+                    self._waiting.get_nowait()
 
     def _run(self) -> None:
         while (question := self._waiting.get()) is not None:

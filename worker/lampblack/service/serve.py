@@ -40,8 +40,10 @@ def serve_forever(
             socket = RouterSocket(context, endpoint)
             try:
                 cache = surface_cache()
-                jobs = Pipeline(cache, niceness=NICENESS, device=device)
-                service = Service(socket, RenderChild(device=device), Pipeline(cache), jobs)
+                previews, finals = RenderChild(device=device), RenderChild(NICENESS, device)
+                jobs = Pipeline(cache, renderer=finals)
+                service = Service(socket, previews, Pipeline(cache), jobs)
+                previews.on_slow = finals.on_slow = service.tell_slow
                 with connection_file(connection, endpoint):
                     Server(socket, service).run(lambda: _is_gone(watched), watched)
             finally:

@@ -7,10 +7,20 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from ..drawing import Palette
-from ..lasting import lasting_thread
+from ..lasting import join_all, lasting_thread
 from ..pipeline import Pipeline
 from ..preview import LivePreview, PreviewImage, PreviewRenderer
-from ..protocol import Bye, Crop, Image, Pixels, Role, Status, encode
+from ..protocol import (
+    Bye,
+    Crop,
+    ErrorCode,
+    Image,
+    Pixels,
+    Role,
+    Status,
+    encode,
+    error_message,
+)
 from ..protocol.fields import Message
 from .faults import fault_message
 from .jobs import Jobs
@@ -21,6 +31,8 @@ from .rig_sketches import RigSketches
 from .session import Session
 
 STATUS_SECONDS = 1.0
+END_SECONDS = 1.0
+"""Seconds that all threads together get to end."""
 
 
 class Transport(Protocol):
@@ -37,7 +49,7 @@ class Transport(Protocol):
 
 class Service:
     """Everything that clients share. Only the thread that owns the transport may call its methods,
-    except ``deliver``, ``request_planes`` and those of ``PreviewListener``.
+    except ``deliver``, ``request_planes``, ``tell_slow`` and those of ``PreviewListener``.
 
     Args:
         renderer, pipeline: for previews.
@@ -73,12 +85,11 @@ class Service:
         self._job_thread.start()
 
     def close(self) -> None:
-        """End all threads and renderers."""
+        """End all renderers and threads; a thread that computes is not waited for."""
         self.jobs.close()
-        self.sketches.close()
-        self.preview.close()
-        if self._job_thread.is_alive():
-            self._job_thread.join(2)
+        self.sketches.stop()
+        self.preview.stop()
+        join_all([*self.preview.threads, self._job_thread], END_SECONDS)
 
     def turn(self) -> None:
         """Plan after changes, and send the status when it is due."""
@@ -150,9 +161,16 @@ class Service:
         """Send an error of the preview."""
         self.deliver(session, fault_message(error))
 
+    def tell_slow(self) -> None:
+        """Tell all clients that a renderer hardly gets to work; any thread may call this."""
+        self._tell_all(error_message(ErrorCode.RENDER_SLOW))
+
     def _report_to_all(self, error: Exception) -> None:
+        self._tell_all(fault_message(error))
+
+    def _tell_all(self, message: Message) -> None:
         for session in list(self.sessions.values()):
-            self.deliver(session.name, fault_message(error))
+            self.deliver(session.name, message)
 
     def part_with(self, session: Session) -> None:
         """Drop a client with its requests."""
