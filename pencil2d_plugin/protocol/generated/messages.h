@@ -254,7 +254,7 @@ struct Image
     quint64 revision = 0;   ///< revision of the scene that is shown; 0: no scene was set
     Show show = Show::Lit;
     quint64 pass = 0;           ///< rises from 0 while request, digest and revision are the same
-    quint64 spp = 0;            ///< samples per pixel so far
+    quint64 spp = 0;            ///< samples per pixel so far; 0 if a moved light is not yet traced
     bool converged = false;     ///< no finer image follows until something changes
     QRectF crop = {};           ///< the part of the frame that is shown
     QVector<Plane> planes = {}; ///< the plane that follows, 1 at most

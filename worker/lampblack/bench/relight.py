@@ -26,6 +26,8 @@ HERTZ = 60
 SECONDS = 10
 PAINTED_PX = 500
 CHANGES = 60
+MOMENTS, STEPS_BETWEEN = 12, 15
+"""Moments of a drag at which what is shown is judged, and changes from one to the next."""
 IDLE_SECONDS = 5
 
 Figures = dict[str, float]
@@ -74,6 +76,8 @@ def bench_relight(picture: Picture, scene: Scene) -> Figures:
         for name, staged in (("one_light", plain), ("floor", floor), ("two_lights", pair)):
             bench.show(staged)
             figures |= {f"{name}_{k}": v for k, v in _drag(bench, staged).items()}
+        bench.show(plain)
+        figures |= _under_the_hand(bench, plain)
         figures |= _rest(bench, plain)
         for name, staged in (("", plain), ("_floor", floor)):
             bench.show(staged)
@@ -171,6 +175,25 @@ def _drag(bench: _Bench, scene: Scene) -> Figures:
             if isinstance(image, Image) and image.revision in sent:
                 latencies.append(time.perf_counter() - sent[image.revision])
     return _spread(latencies) | {"pictures_per_s": len(latencies) / SECONDS}
+
+
+def _under_the_hand(bench: _Bench, scene: Scene) -> Figures:
+    """How far what is shown is from the converged picture of where the light is at that moment."""
+    client, shown = bench.client, bench.show(scene)
+    moments: list[tuple[Scene, Picture]] = []
+    begin = time.perf_counter()
+    for step in range(MOMENTS * STEPS_BETWEEN):
+        moved = _circle(scene, step / HERTZ)
+        client.set_scene(moved)
+        due = begin + (step + 1) / HERTZ
+        while (left := due - time.perf_counter()) > 0:
+            received = client.receive(left)
+            if received is not None and isinstance(received.message, Image):
+                shown = received.planes["picture"]
+        if step % STEPS_BETWEEN == STEPS_BETWEEN - 1:
+            moments.append((moved, shown.copy()))
+    errors = [_rmse(picture, bench.show(moved)) for moved, picture in moments]
+    return {"rmse_under_the_hand": float(np.mean(errors)), "rmse_worst": max(errors)}
 
 
 def _rest(bench: _Bench, scene: Scene) -> Figures:

@@ -3,6 +3,7 @@ separately."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -32,7 +33,8 @@ class LightContribution:
     """One light, the ambient light or a glow, on the character or on the floor.
 
     Attributes:
-        key: all that affects the traced light, except the amounts of gloss.
+        kin: all that affects the traced light, except the amounts of gloss and where a light is.
+        place: of a light, all else that affects it; otherwise what shapes a glow, or None.
         amounts: amounts of gloss by swatch. They change the light little, so light with other
             amounts is shown until it is traced again.
         weight: (3,) colour times power, used only by the composite.
@@ -41,7 +43,8 @@ class LightContribution:
         area: the traced part of the drawing, in its pixels.
     """
 
-    key: Hashable
+    kin: Hashable
+    place: Hashable
     amounts: tuple[float, ...]
     weight: Floats
     light: AreaLight | None
@@ -53,9 +56,22 @@ class LightContribution:
     link: Link | None = None
 
     @property
+    def key(self) -> Hashable:
+        """All that affects the traced light, except the amounts of gloss."""
+        return self.kin, self.place
+
+    @property
     def is_ambient(self) -> bool:
         """Whether this is the ambient light."""
         return self.light is None and self.glow is None
+
+    def distance_to(self, other: LightContribution) -> float:
+        """How far the lights of two contributions are apart, in default heights."""
+        one, two = self.light, other.light
+        if one is None or two is None:
+            return 0.0
+        apart = (one.x - two.x, one.y - two.y, one.z - two.z, one.size - two.size)
+        return math.hypot(*apart) / self.canvas.default_height
 
     @property
     def refinement(self) -> tuple[RefinementLevel, RefinementLevel]:
@@ -107,15 +123,15 @@ def contributions_of(
             link = None if light is None else Link.of(light)
             if (not weight.any() and not occluding) or (link is not None and subject == "floor"):
                 continue
-            at = light and light.geometry
-            key = (drawing.digest, drawing.detail, shared, subject, area, at)
-            neutral = light and light.neutral()
+            kind = light and (light.kind, light.casts_shadow)
+            kin = (drawing.digest, drawing.detail, shared, subject, area, kind)
             found.append(
                 LightContribution(
-                    key,
+                    kin,
+                    light and light.geometry,
                     materials.amounts,
                     weight,
-                    neutral,
+                    light and light.neutral(),
                     subject,
                     area,
                     scene.canvas,
@@ -124,11 +140,18 @@ def contributions_of(
                 )
             )
         for glow, shaped in glows.items():
-            own = (drawing.digest, drawing.detail, shared, subject, area, (glow, shaped))
-            weight = glow_weight(glow, scene)
             found.append(
                 LightContribution(
-                    own, materials.amounts, weight, None, subject, area, scene.canvas, floor, glow
+                    (drawing.digest, drawing.detail, shared, subject, area, glow),
+                    shaped,
+                    materials.amounts,
+                    glow_weight(glow, scene),
+                    None,
+                    subject,
+                    area,
+                    scene.canvas,
+                    floor,
+                    glow,
                 )
             )
     return tuple(found)

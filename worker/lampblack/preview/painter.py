@@ -16,6 +16,8 @@ from ..composite.edges import reach_of
 from ..composite.illumination import Illumination
 from ..prepared import PreparedDrawing
 from ..surface import clay_picture
+from . import anticipation
+from .anticipation import Anticipation
 from .bounded import MIB, BoundedStore
 from .light_store import AccumulatedLight
 from .refinement import CONVERGED
@@ -31,7 +33,7 @@ class PreviewImage:
 
     Attributes:
         passes: number of earlier pictures of the same request, revision and drawing.
-        spp: samples per pixel so far.
+        spp: samples per pixel so far; 0 if light of it is anticipated.
         converged: no finer picture follows until something changes.
         picture: (H, W, 4) uint8 sRGB, premultiplied, at the viewport's size.
     """
@@ -65,6 +67,7 @@ class Painter:
     state: PreviewState
     deliver: Callable[[PreviewImage], None]
     report: Callable[[str, Exception], None]
+    _anticipation: Anticipation = field(init=False)
     _offers: dict[str, dict[tuple[int, int], ViewRequest]] = field(default_factory=dict)
     _shown: dict[str, _Shown] = field(default_factory=dict)
     _layers: BoundedStore[Hashable, ByteLayers] = field(
@@ -72,6 +75,9 @@ class Painter:
     )
     _condition: threading.Condition = field(default_factory=threading.Condition)
     _closing: bool = False
+
+    def __post_init__(self) -> None:
+        self._anticipation = Anticipation(self.state.lights)
 
     def offer(self, request: ViewRequest) -> None:
         """Paint ``request``, unless a newer one can be painted."""
@@ -94,6 +100,7 @@ class Painter:
     def run(self) -> None:
         """Paint until closed."""
         warm_up()
+        anticipation.warm_up()
         while True:
             with self._condition:
                 self._condition.wait_for(lambda: self._closing or self._offers)
@@ -155,12 +162,17 @@ class Painter:
         view = request.resolve(drawing)
         if view is None:
             return False
-        found = [self.state.lights.get(contribution) for contribution in view.contributions]
-        lights = [light for light in found if light is not None]
-        if len(lights) < len(found):
-            return False
-        pairs = zip(view.contributions, lights, strict=True)
-        content = (drawing.detail, *((c.key, light.level, light.amounts) for c, light in pairs))
+        lights, sources = [], []
+        for contribution in view.contributions:
+            light, source = self.state.lights.get(contribution), contribution.key
+            if light is None:
+                anticipated = self._anticipation.of(contribution, drawing)
+                if anticipated is None:
+                    return False
+                light, source = anticipated.light, anticipated.corrected_by
+            lights.append(light)
+            sources.append((contribution.key, source, light.level, light.amounts))
+        content = (drawing.detail, *sources)
         if _is_shown(request, content, shown):
             return True
         converged = _is_full(drawing) and all(

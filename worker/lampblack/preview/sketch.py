@@ -7,17 +7,18 @@ the height. No light bounces.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ..compiled import compiled
 from ..composite.open_light import open_light, towards
 from ..composite.resample import Box
 from ..prepared import PreparedDrawing
 from ..render import LightPasses, Passes
-from ..scene import AreaLight, Scene, shining
+from ..scene import AreaLight, Canvas, Scene, shining
 
 Floats = NDArray[np.float32]
 Sample = TypeVar("Sample", bound=np.generic)
@@ -45,6 +46,11 @@ class SketchedSurface:
     inside: NDArray[np.bool_]
     cell: float
 
+    @property
+    def nbytes(self) -> int:
+        """Memory in bytes."""
+        return self.normals.nbytes + self.places.nbytes + self.inside.nbytes
+
     @staticmethod
     def of(drawing: PreparedDrawing, crop: Box, size: tuple[int, int]) -> SketchedSurface:
         """The part of ``drawing`` in ``crop``, in its pixels, at ``size`` (width, height).
@@ -68,44 +74,59 @@ class SketchedSurface:
     def passes(self, scene: Scene) -> Passes:
         """The light of ``scene``, in pixels of the drawing, on the character."""
         lights = tuple(
-            self._light(light, scene) if shines else LightPasses(_DARK, _DARK)
+            LightPasses(grey(self.light(light, scene.canvas)) if shines else _DARK, _DARK)
             for light, shines in zip(scene.lights, shining(scene.lights), strict=True)
         )
         open_sky = _OVERHEAD + (1 - _OVERHEAD) * self.normals[..., 2]
-        return Passes(lights, LightPasses(_grey(open_sky), _DARK))
+        return Passes(lights, LightPasses(grey(open_sky), _DARK))
 
-    def _light(self, light: AreaLight, scene: Scene) -> LightPasses:
-        """A light of power 1, in white: irradiance over pi."""
-        ways = towards(light, scene.canvas, self.places)
-        strength = open_light(light, scene.canvas, self.normals, ways)
-        distance = np.asarray(np.maximum(np.linalg.norm(ways, axis=2), 1e-3), np.float32)
-        spread = np.minimum(light.size / 2 / distance, 1)
-        return LightPasses(
-            _grey(strength * self._reached(ways / distance[..., None], spread)), _DARK
-        )
+    def light(self, light: AreaLight, canvas: Canvas) -> Floats:
+        """(h, w) irradiance over pi of ``light`` in white and of power 1, which does not bounce."""
+        ways = towards(light, canvas, self.places)
+        strength = open_light(light, canvas, self.normals, ways)
+        if not light.casts_shadow:
+            return strength
+        covered = np.empty(strength.shape, np.float32)
+        _cover(
+            self.places[..., 2].copy(), self.inside, ways,
+            np.float32(light.size / 2), np.float32(self.cell), covered,
+        )  # fmt: skip
+        reached = 1 - ndimage.gaussian_filter(covered, 0.7)
+        return np.asarray(strength * reached, np.float32)
 
-    def _reached(self, to: Floats, spread: Floats) -> Floats:
-        """(h, w) in 0..1: how much of the light is not covered by the height on the way to it,
-        given the directions ``to`` it, (h, w, 3), and its radius over its distance."""
-        level = np.hypot(to[..., 0], to[..., 1])
-        slope = to[..., 2] / np.maximum(level, 1e-3)
-        rise, covered = self.places[..., 2], np.zeros(level.shape, np.float32)
-        rows, columns = level.shape
-        row, column = np.indices(level.shape, np.float32)
-        longest = 0.6 * max(rows, columns)
-        for step in range(1, _STEPS + 1):
-            reach = longest * (step / _STEPS) ** 1.5 + 1.0  # in elements
-            at_row = row + reach * to[..., 1] / np.maximum(level, 1e-3)
-            at_column = column + reach * to[..., 0] / np.maximum(level, 1e-3)
-            here = (at_row >= 0) & (at_row < rows) & (at_column >= 0) & (at_column < columns)
-            r = np.clip(at_row, 0, rows - 1).astype(np.intp)
-            c = np.clip(at_column, 0, columns - 1).astype(np.intp)
-            ray = rise + reach * self.cell * slope
-            blur = reach * self.cell * np.maximum(spread, 0.03) + self.cell
-            over = np.clip((rise[r, c] - ray - self.cell) / blur, 0, 1)
-            covered = np.maximum(covered, np.where(here & self.inside[r, c], over, 0))
-        covered[level < 1e-3] = 0
-        return np.asarray(1 - ndimage.gaussian_filter(covered, 0.7), np.float32)
+
+@compiled
+def _cover(rise: Any, inside: Any, ways: Any, radius: Any, cell: Any, covered: Any) -> None:
+    """Write to ``covered``, (h, w) in 0..1, how much of a light of this ``radius`` the height
+    ``rise`` hides on the way to it, ``ways``; lengths in pixels of the drawing."""
+    rows, columns = covered.shape
+    none, one, least = np.float32(0), np.float32(1), np.float32(1e-3)
+    longest = np.float32(0.6 * max(rows, columns))
+    reaches = np.empty(_STEPS, np.float32)  # in elements
+    for step in range(_STEPS):
+        reaches[step] = longest * ((step + 1) / _STEPS) ** 1.5 + 1.0
+    for row in range(rows):
+        for column in range(columns):
+            covered[row, column] = none
+            x, y, z = ways[row, column, 0], ways[row, column, 1], ways[row, column, 2]
+            distance = max(np.sqrt(x * x + y * y + z * z), least)
+            level = np.sqrt(x * x + y * y) / distance
+            if level < least:
+                continue
+            across, down = x / distance / level, y / distance / level
+            slope, spread = z / distance / level, max(min(radius / distance, one), np.float32(0.03))
+            hidden = none
+            for step in range(_STEPS):
+                reach = reaches[step]
+                r, c = row + reach * down, column + reach * across
+                if r < 0 or r >= rows or c < 0 or c >= columns:
+                    break
+                r, c = int(min(r, rows - 1)), int(min(c, columns - 1))
+                if inside[r, c]:
+                    ray = rise[row, column] + reach * cell * slope
+                    blur = reach * cell * spread + cell
+                    hidden = max(hidden, (rise[r, c] - ray - cell) / blur)
+            covered[row, column] = min(hidden, one)
 
 
 def normals_picture(drawing: PreparedDrawing, side: int) -> NDArray[np.uint8]:
@@ -135,5 +156,6 @@ def _within(across: Floats, down: Floats, size: tuple[int, int]) -> NDArray[np.b
     return np.asarray(inside[:, None] & ((across >= 0) & (across < size[0]))[None])
 
 
-def _grey(light: Floats) -> Floats:
+def grey(light: Floats) -> Floats:
+    """(h, w, 3) of (h, w): the same light in all channels."""
     return np.repeat(light[..., None], 3, axis=2).astype(np.float32)

@@ -36,8 +36,9 @@ from .state import PreviewState
 
 REST_SECONDS = 0.1
 """Seconds without a change after which light is refined."""
-MOST_SECONDS = 0.036
-"""Longest time for one light while something changes, seconds."""
+MOST_SECONDS = 0.2
+"""Longest time for one light while something changes, seconds. What is shown does not wait for it,
+see ``anticipation``; but the shadow on the floor does."""
 TICK_SECONDS = 1.0
 MAX_SURFACES = 6
 MAX_FAILURES = 3

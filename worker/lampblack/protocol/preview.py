@@ -64,7 +64,9 @@ class Image(Message, frozen=True, kw_only=True):
     pass_: Annotated[
         Count, Meta(description="rises from 0 while request, digest and revision are the same")
     ] = msgspec.field(name="pass")
-    spp: Annotated[Count, Meta(description="samples per pixel so far")]
+    spp: Annotated[
+        Count, Meta(description="samples per pixel so far; 0 if a moved light is not yet traced")
+    ]
     converged: Annotated[bool, Meta(description="no finer image follows until something changes")]
     crop: Annotated[Crop, Meta(description="the part of the frame that is shown")]
     planes: Annotated[
