@@ -14,6 +14,7 @@ import typer
 
 from .. import __version__
 from ..errors import LampblackError
+from ..processors import usable_processors
 from .console import EXIT_FAILED, print_error
 
 
@@ -46,9 +47,8 @@ def doctor() -> None:
 
 
 def _machine() -> str:
-    cores = len(os.sched_getaffinity(0))
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return f"{platform.platform()}, {cores} cores, {memory:.0f} GiB"
+    return f"{platform.platform()}, {usable_processors()} cores, {memory:.0f} GiB"
 
 
 def _temporary_folder() -> str:

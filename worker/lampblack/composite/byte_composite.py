@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..drawing.palette import Palette
 from ..materials import MaterialTable
+from ..processors import usable_processors
 from ..scene import Look, Material, Rim, Scene, default_scene
 from .bloom import bloom_of
 from .byte_arguments import (
@@ -28,6 +31,9 @@ from .resample import Band, Box
 from .samples import LINEAR, SRGB
 from .shading import Shading
 
+THREADS = min(4, usable_processors())
+"""Threads that share the rows of a picture."""
+
 
 def composite_bytes(
     layers: ByteLayers, illumination: Illumination, scene: Scene, crop: Box
@@ -45,7 +51,7 @@ def composite_bytes(
     shading = Shading.of(illumination, scene, materials, pixel, area)
     paints = Paints.of(materials, layers)
     lit = np.empty((height, width, 4), np.uint8)
-    light_pixels(
+    arguments = (
         Planes.of(layers),
         paints,
         FigureLight.of(shading, paints, place_of(crop, layers.size, area)),
@@ -55,13 +61,22 @@ def composite_bytes(
         Ground.of(shading.floor_ratio, place_of(crop, layers.size, illumination.floor_area)),
         np.float32(shading.ink_light),
         (LINEAR, SRGB),
-        lit,
     )
+
+    def write(first: int) -> None:
+        light_pixels(*arguments, (first, THREADS), lit)
+
+    list(_threads().map(write, range(THREADS)))
     bloom = bloom_of(layers, materials, scene, pixel)
     if bloom is not None:
         shown = bloom.over(lit.astype(np.float32) / 255.0, Band(width, height, 0, height))
         lit = np.rint(shown * 255).astype(np.uint8)
     return lit
+
+
+@cache
+def _threads() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(THREADS, "composite")
 
 
 def warm_up() -> None:

@@ -30,7 +30,7 @@ from .samples import encode, paleness_of
 @compiled
 def light_pixels(
     planes: Planes, paints: Paints, figure: FigureLight, tones: ToneSteps, parts: PartLights,
-    rim: RimBand, ground: Ground, ink_light: Any, tables: Any, lit: Any,
+    rim: RimBand, ground: Ground, ink_light: Any, tables: Any, rows: tuple[int, int], lit: Any,
 ) -> None:  # fmt: skip
     """Write the lit pixels to ``lit``, (H, W, 4) uint8 sRGB, premultiplied.
 
@@ -39,6 +39,7 @@ def light_pixels(
     Args:
         ink_light: how far the line takes light, 0 to 1.
         tables: see ``samples``: from sRGB bytes to light, and back.
+        rows: the first row to write, and how many there are from one to the next.
     """
     height, width = lit.shape[0], lit.shape[1]
     base, fill = np.empty((width, 3), np.float32), np.empty((width, 3), np.float32)
@@ -46,7 +47,7 @@ def light_pixels(
     light, gleam = np.empty((2, width, 3), np.float32), np.empty((2, width, 3), np.float32)
     columns, mixed = np.empty(width, np.intp), np.empty(width, np.intp)
     at = columns_of(width, figure, tones, parts)
-    for row in range(height):
+    for row in range(rows[0], height, rows[1]):
         found, both = _chosen(row, planes, paints, parts, tables, base, fill, unlit, columns, mixed)
         own, their = columns[:found], mixed[:both]
         light_row(

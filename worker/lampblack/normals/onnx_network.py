@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..cache import digest
 from ..errors import LampblackError
 from ..files import read_bounded
+from ..processors import usable_processors
 from .card import NetworkCard, graph_path, read_weights
 from .character import COARSE, LUMO
 from .resize import resize
@@ -91,9 +92,6 @@ class OnnxNetwork:
 
 
 def _threads() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        usable = len(os.sched_getaffinity(0))
-    else:
-        usable = os.cpu_count() or 1
+    usable = usable_processors()
     said = os.environ.get("OMP_NUM_THREADS", "")
     return min(usable, int(said)) if said.isdecimal() and int(said) else usable

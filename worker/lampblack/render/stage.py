@@ -7,7 +7,6 @@ half the canvas's long side is 1.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
@@ -17,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..choices import GlowName
+from ..processors import usable_processors
 from ..scene import Ambient, AreaLight, Canvas, Floor
 from .cards import use_card
 from .device import Card
@@ -200,7 +200,7 @@ class Stage:
         render.use_persistent_data = True
         render.use_compositing = render.use_sequencer = False
         render.threads_mode = "FIXED"
-        render.threads = threads()
+        render.threads = usable_processors()
         cycles = self.scene.cycles
         cycles.pixel_filter_type = "BOX"
         cycles.use_auto_tile = False
@@ -218,13 +218,6 @@ class Stage:
         thing = bpy.data.objects.new(name, data)
         self.scene.collection.objects.link(thing)
         return thing
-
-
-def threads() -> int:
-    """Number of processors that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _set_visible(thing: Any, rays: str) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..choices import DeviceChoice, DeviceKind
+from ..processors import usable_processors
 from ..scene import AreaLight, Canvas
 from ..surface.relief import build_relief
 from .cards import find_cards
@@ -15,7 +16,7 @@ from .denoise import Denoiser
 from .device import Card, Choice, Verdict, choose
 from .passes import LightPasses
 from .quality import Quality, Sampling
-from .stage import Stage, threads
+from .stage import Stage
 from .trace import trace
 from .wire import Started, Trace
 
@@ -36,12 +37,12 @@ def set_up(wanted: DeviceChoice, memory: Path) -> tuple[Stage, Denoiser, Started
     if card is not None:
         try:
             kind: DeviceKind = card.kind if choice.denoises else "cpu"
-            denoiser = Denoiser(threads(), kind)
+            denoiser = Denoiser(usable_processors(), kind)
             return Stage(card), denoiser, Started(card.kind, card.name, choice.notice)
         except RuntimeError as error:
             lost = f"{card.label} cannot be used now: {error}. The processor is used."
             choice = Choice(notice=lost[:500])
-    return Stage(), Denoiser(threads()), Started("cpu", "", choice.notice)
+    return Stage(), Denoiser(usable_processors()), Started("cpu", "", choice.notice)
 
 
 def try_card(card: Card) -> Verdict:
@@ -50,13 +51,13 @@ def try_card(card: Card) -> Verdict:
     Raises:
         RuntimeError: Blender cannot render on it.
     """
-    expected = _ball(Stage(), Denoiser(threads()))
+    expected = _ball(Stage(), Denoiser(usable_processors()))
     stage = Stage(card)
-    why = difference(expected, _ball(stage, Denoiser(threads())))
+    why = difference(expected, _ball(stage, Denoiser(usable_processors())))
     if why:
         return Verdict("wrong", why=f"a test picture on it came out wrong: {why}.")
     try:
-        denoises = not difference(expected, _ball(stage, Denoiser(threads(), card.kind)))
+        denoises = not difference(expected, _ball(stage, Denoiser(usable_processors(), card.kind)))
     except RuntimeError:
         denoises = False
     return Verdict("right", denoises)
