@@ -46,7 +46,7 @@ BAD = {
     "of three coordinates, text": (GOOD[0].astype(str), GOOD[1]),
     "not finite": (np.where(GOOD[0] > 0, np.nan, 0.0), GOOD[1]),
     "too far away": (GOOD[0] * 1e300, GOOD[1]),
-    "0 faces": (GOOD[0], np.zeros((0, 3), int)),
+    "no faces": (GOOD[0], np.zeros((0, 3), int)),
 }
 
 

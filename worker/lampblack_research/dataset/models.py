@@ -109,8 +109,10 @@ def _checked(
         raise LampblackError(f"{path} has no vertices of three coordinates.")
     if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
         raise LampblackError(f"{path} has faces that are no triangles.", "Triangulate it.")
-    if not 0 < len(faces) <= MAX_FACES:
-        raise LampblackError(f"{path} has {len(faces)} faces; 1 to {MAX_FACES} can be used.")
+    if not len(faces):
+        raise LampblackError(f"{path} has no faces: it is empty, or no model.")
+    if len(faces) > MAX_FACES:
+        raise LampblackError(f"{path} has {len(faces)} faces; {MAX_FACES} at most can be used.")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise LampblackError(f"{path} has a face with a vertex that does not exist.")
     if not np.isfinite(vertices).all() or np.abs(vertices).max() > LARGEST:
