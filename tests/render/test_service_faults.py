@@ -233,6 +233,7 @@ def test_nothing_stays_behind_when_the_parent_goes(
 
 
 def test_a_client_that_never_reads_harms_nobody(worker: Worker, client: Client) -> None:
+    still_serves(client)  # it has loaded what it needs
     with worker.connect() as deaf:
         deaf.hello()
         deaf.announce(1, draw_ball(SIZE))
