@@ -157,6 +157,8 @@ public:
 
 Q_SIGNALS:
     void toolActivated(bool active);
+    /// The artist has chosen a colour, in the palette or the colour box of the program.
+    void colourChosen(const QColor& colour);
     void viewChanged();
     void frameChanged(int frame);
     void frameCountChanged(int count);

@@ -76,6 +76,8 @@ Parts findParts(QMainWindow* window)
                 parts.playback = object;
             else if (isClass(object, "PreferenceManager"))
                 parts.preferences = object;
+            else if (isClass(object, "ColorManager"))
+                parts.colours = object;
             else if (isClass(object, "OverlayManager"))
                 parts.isSince07 = true;
         }

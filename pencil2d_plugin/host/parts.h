@@ -22,6 +22,7 @@ struct Parts
     QPointer<QObject> view;
     QPointer<QObject> playback;
     QPointer<QObject> preferences;
+    QPointer<QObject> colours;
     QPointer<QWidget> palette; ///< the dock of the tools, or since 0.7.2 what is in it
     QPointer<QDockWidget> options;
     QPointer<QWidget> timeControls;

@@ -94,6 +94,8 @@ Pencil2DHost::Pencil2DHost(const Parts& parts, QObject* parent)
         connect(parts.view, SIGNAL(viewChanged()), this, SIGNAL(viewChanged()));
     if (has(parts.layers, "currentLayerChanged(int)"))
         connect(parts.layers, SIGNAL(currentLayerChanged(int)), this, SLOT(onCurrentLayerChanged(int)));
+    if (has(parts.colours, "colorChanged(QColor,int)"))
+        connect(parts.colours, SIGNAL(colorChanged(QColor, int)), this, SIGNAL(colourChosen(QColor)));
     connect(parts.window->statusBar(), &QStatusBar::messageChanged, this, &Pencil2DHost::restoreStatus);
     if (has(parts.preferences, "optionChanged(SETTING)"))
         connect(parts.preferences, SIGNAL(optionChanged(SETTING)), this, SLOT(forgetPaper()));

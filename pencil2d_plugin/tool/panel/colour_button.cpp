@@ -15,7 +15,8 @@ ColourButton::ColourButton(const QString& name, const QString& label, QWidget* p
 {
     setObjectName(name);
     setAccessibleName(label);
-    setToolTip(label);
+    setToolTip(
+        tr("%1. While its dialog is open, Pencil2D's palette and colour box choose it too.").arg(label));
     setFixedSize(44, 22);
     setFocusPolicy(Qt::StrongFocus);
     connect(this, &QToolButton::clicked, this, &ColourButton::openDialog);
@@ -26,6 +27,12 @@ void ColourButton::setColour(const QColor& colour)
     mColour = colour;
     setAccessibleDescription(colour.name());
     update();
+}
+
+void ColourButton::choose(const QColor& colour)
+{
+    if (mDialog)
+        mDialog->setCurrentColor(QColor(colour.rgb()));
 }
 
 void ColourButton::openDialog()

@@ -20,6 +20,8 @@ public:
     QColor colour() const { return mColour; }
     /// Show a colour; does not emit edited().
     void setColour(const QColor& colour);
+    /// Choose a colour in the dialog, if it is open.
+    void choose(const QColor& colour);
 
 Q_SIGNALS:
     void edited(const QColor& colour, int gesture);

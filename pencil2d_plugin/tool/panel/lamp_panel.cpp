@@ -1,5 +1,6 @@
 #include "tool/panel/lamp_panel.h"
 
+#include "tool/panel/colour_button.h"
 #include "tool/panel/environment_section.h"
 #include "tool/panel/layers_section.h"
 #include "tool/panel/lights_section.h"
@@ -87,6 +88,13 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAc
     restoreSections(host);
     connect(mProblem, &ProblemCard::retryRequested, this, &LampPanel::retryRequested);
     connect(mInstall, &InstallCard::installed, this, &LampPanel::retryRequested);
+    connect(&host, &Host::colourChosen, this,
+            [this](const QColor& colour)
+            {
+                const auto buttons = findChildren<ColourButton*>();
+                for (ColourButton* button : buttons)
+                    button->choose(colour);
+            });
 }
 
 void LampPanel::addHeader(const QFont& font)

@@ -81,6 +81,13 @@ class ColorPaletteWidget : public QDockWidget
     Q_OBJECT
 };
 
+class ColorManager : public QObject
+{
+    Q_OBJECT
+Q_SIGNALS:
+    void colorChanged(QColor, int);
+};
+
 enum ToolType : int
 {
 };

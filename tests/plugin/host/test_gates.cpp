@@ -227,6 +227,18 @@ private Q_SLOTS:
         QVERIFY(!exported.error.isEmpty());
     }
 
+    void theProgramsColoursAreHeard()
+    {
+        const auto window = bareWindow();
+        auto* colours = new ColorManager;
+        colours->setParent(window.get());
+        const std::unique_ptr<Host> host(createHost(nullptr));
+        QSignalSpy chosen(host.get(), &Host::colourChosen);
+        Q_EMIT colours->colorChanged(Qt::red, 3);
+        QCOMPARE(chosen.size(), 1);
+        QCOMPARE(chosen[0][0].value<QColor>(), QColor(Qt::red));
+    }
+
     void aLoopBeyondTheLastDrawingEndsWithIt()
     {
         const auto window = bareWindow();

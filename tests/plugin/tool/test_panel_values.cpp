@@ -99,6 +99,19 @@ private Q_SLOTS:
         QCOMPARE(light().z, -5000.0);
     }
 
+    void theProgramsColoursChooseInAnOpenDialog()
+    {
+        Q_EMIT mHost->colourChosen(QColor(10, 20, 30));
+        QCOMPARE(light().colour, QColor(Qt::white));
+        auto* button = find<ColourButton>("colour");
+        button->click();
+        Q_EMIT mHost->colourChosen(QColor(10, 20, 30, 40));
+        QCOMPARE(light().colour, QColor(10, 20, 30));
+        QCOMPARE(mDocument->scene().ambient.colour, QColor(Qt::white));
+        button->findChild<QColorDialog*>()->reject();
+        QCOMPARE(light().colour, QColor(Qt::white));
+    }
+
     void theColourDialogLeavesTheDrawingInSight()
     {
         QMainWindow window;
