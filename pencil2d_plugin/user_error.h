@@ -14,7 +14,8 @@ struct UserError
     {
         Other,
         NothingDrawn, ///< over as soon as something is drawn
-        NoWorker      ///< the worker has been given up; it can be started again
+        NoWorker,     ///< the worker has been given up; it can be started again
+        NotRead       ///< over as soon as the drawing can be read
     };
     QString what;
     QString remedy;

@@ -37,17 +37,24 @@ debian=$(. /etc/os-release && echo "${VERSION_ID:-$VERSION_CODENAME}")
 architecture=$(dpkg --print-architecture)
 libraries=usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)/lampblack
 root=$work/root
+plugin=$root/$libraries/plugins/generic/liblampblack.so
+window=$root/$libraries/lampblack-window
 # The linker's own digest is of paths that are stripped away.
-cmake --preset dev -DLAMPBLACK_TESTS=OFF -DCMAKE_MODULE_LINKER_FLAGS=-Wl,--build-id=none >/dev/null
-cmake --build --preset dev --target lampblack
-install -D -m 644 -s build/dev/plugins/generic/liblampblack.so "$root/$libraries/plugins/generic/liblampblack.so"
-echo '{"installer": "/usr/share/lampblack"}' >"$root/$libraries/plugins/generic/lampblack.json"
+cmake --preset dev -DLAMPBLACK_TESTS=OFF -DCMAKE_MODULE_LINKER_FLAGS=-Wl,--build-id=none \
+    -DCMAKE_EXE_LINKER_FLAGS=-Wl,--build-id=none >/dev/null
+cmake --build --preset dev --target lampblack lampblack-window
+install -D -m 644 -s build/dev/plugins/generic/liblampblack.so "$plugin"
+install -D -m 755 -s build/dev/lampblack-window "$window"
+for binary in "$plugin" "$window"; do
+    echo '{"installer": "/usr/share/lampblack"}' >"$(dirname "$binary")/lampblack.json"
+done
 install -D -m 755 packaging/pencil2d-lampblack "$root/usr/bin/pencil2d-lampblack"
 sed -i "s|@PLUGINS@|/$libraries/plugins|" "$root/usr/bin/pencil2d-lampblack"
+ln -s "/$libraries/lampblack-window" "$root/usr/bin/lampblack-window"
 share=$root/usr/share
 install -D -m 755 -t "$share/lampblack" scripts/launch.sh
 install -D -m 644 -t "$share/lampblack" packaging/install_worker.py packaging/worker-python*.txt "$dist/$wheel"
-install -D -m 644 -t "$share/applications" packaging/pencil2d-lampblack.desktop
+install -D -m 644 -t "$share/applications" packaging/pencil2d-lampblack.desktop packaging/lampblack-window.desktop
 install -D -m 644 -t "$share/metainfo" packaging/org.lampblack.Pencil2D.metainfo.xml
 install -D -m 644 pencil2d_plugin/tool/icons/lamp.svg "$share/icons/hicolor/scalable/apps/lampblack.svg"
 install -D -m 644 packaging/copyright "$share/doc/pencil2d-lampblack/copyright"
@@ -55,7 +62,7 @@ install -D -m 644 packaging/copyright "$share/doc/pencil2d-lampblack/copyright"
 # dpkg-shlibdeps wants a debian/control beside it.
 mkdir -p "$work/deps/debian" "$root/DEBIAN"
 printf 'Source: lampblack\n\nPackage: pencil2d-lampblack\nArchitecture: any\n' >"$work/deps/debian/control"
-depends=$(cd "$work/deps" && dpkg-shlibdeps -O "$root/$libraries/plugins/generic/liblampblack.so" 2>/dev/null |
+depends=$(cd "$work/deps" && dpkg-shlibdeps -O "$plugin" "$window" 2>/dev/null |
     sed -n 's/^shlibs:Depends=//p')
 sed -e "s#@VERSION@#$version~debian$debian#" -e "s#@ARCHITECTURE@#$architecture#" -e "s#@DEPENDS@#$depends#" \
     -e "s#@SIZE@#$(du -sk --apparent-size "$root/usr" | cut -f1)#" packaging/control >"$root/DEBIAN/control"

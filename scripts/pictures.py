@@ -112,6 +112,15 @@ def sheet_of_the_data_set(work: Path) -> None:
     save("dataset.jpg", [[opened(work / "dataset" / "sheet.png", side=910)]])
 
 
+def window(work: Path) -> None:
+    """The example in ``lampblack-window``."""
+    test = "tests/window/test_own_window.py::test_a_project_of_pencil2d_needs_no_pencil2d"
+    run(sys.executable, "-m", "pytest", "-q", test)
+    with Image.open(ROOT / "build" / "screenshots" / "own window project.png") as screen:
+        screen.crop((0, 0, *WINDOW_SIZE)).save(work / "window.png")
+    save("window.jpg", [[opened(work / "window.png", side=1000)]])
+
+
 @dataclass(frozen=True)
 class Recipe:
     """How pictures are made that come together."""
@@ -124,6 +133,8 @@ class Recipe:
 
 
 WINDOW = ("lit", "menu", "floor", "glossy", "normals", "keys")
+WINDOW_SIZE = (1434, 990)
+"""Of the window with its frame on a screenshot, pixels."""
 RECIPES = (
     Recipe(
         ("architecture.svg",),
@@ -151,6 +162,7 @@ RECIPES = (
         lambda _: run(sys.executable, "tests/record_window.py", IMAGES),
         "tests/record_window.py, in the real Pencil2D",
     ),
+    Recipe(("window.jpg",), window, "a test of lampblack-window, in a virtual display"),
     Recipe(
         ("dragged-light.gif",),
         lambda _: run(sys.executable, "examples/drag_light.py", IMAGES / "dragged-light.gif"),

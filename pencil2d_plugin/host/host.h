@@ -1,5 +1,5 @@
-// The interface of the drawing program for the rest of the plugin. Only classes behind it know Pencil2D.
-// Another version of Pencil2D can be supported by another Host.
+// The interface of the drawing program for the rest of the plugin. Only classes behind it know Pencil2D, or
+// the files that a window of our own shows. Another program can be supported by another Host.
 //
 // Frames of reference. *Canvas* coordinates are pixels of an exported frame: x right, y down, origin at its
 // top left corner (Pencil2D's own origin is the camera's centre). *Widget* coordinates are logical pixels of
@@ -117,7 +117,8 @@ public:
     virtual int currentFrame() const = 0;
     /// Does nothing while the animation plays, or if the program does not have the frame.
     virtual void goToFrame(int frame) = 0;
-    virtual int frameCount() const = 0;
+    virtual int firstFrame() const { return 1; }
+    virtual int frameCount() const = 0; ///< number of the last frame
     virtual double framesPerSecond() const = 0;
     virtual bool isPlaying() const = 0;
     virtual FrameRange loopRange() const = 0; ///< all frames if no range is set
@@ -174,6 +175,8 @@ Q_SIGNALS:
     void projectSaved(const QString& path);  ///< another path than before: "Save as"
     void frameExported(const lampblack::FrameExport& frame);
     void exportFailed(int frame, const lampblack::UserError& error);
+    /// What the artist must know of, and nobody has asked for: a file that cannot be opened.
+    void problem(const lampblack::UserError& error);
 };
 
 /// The host for the program that has loaded us; null if it is not supported.

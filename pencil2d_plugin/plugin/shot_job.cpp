@@ -148,7 +148,7 @@ void ShotJob::generateSurfaces()
     if (mKind != Kind::None)
         return;
     QVector<int> frames;
-    for (int frame = 1; frame <= mHost.frameCount(); ++frame)
+    for (int frame = mHost.firstFrame(); frame <= mHost.frameCount(); ++frame)
         frames.append(frame);
     begin(Kind::Surfaces, frames, true);
 }

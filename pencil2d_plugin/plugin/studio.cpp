@@ -152,7 +152,7 @@ FrameRange Studio::selectedRange() const
     case ShotRange::All:
         break;
     }
-    return {1, mHost.frameCount()};
+    return {mHost.firstFrame(), mHost.frameCount()};
 }
 
 void Studio::connectJobs()

@@ -33,6 +33,8 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
     setUpActions();
     setUpCanvas();
     connect(&worker, &Worker::problem, this, &LampTool::showProblem);
+    connect(&host, &Host::problem, this, &LampTool::showProblem);
+    connect(&host, &Host::frameExported, this, [this] { settleProblem(UserError::Kind::NotRead); });
     connect(&document, &SceneDocument::problem, this, &LampTool::showProblem);
     connect(&host, &Host::toolActivated, this, &LampTool::setActive);
     connect(&host, &Host::projectOpened, this,
@@ -42,6 +44,7 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
                 updateOverlay();
                 setPalette({}); // its colours were those of the project before
                 settleProblem(UserError::Kind::NothingDrawn);
+                settleProblem(UserError::Kind::NotRead);
             });
     connect(&worker, &Worker::imageArrived, this,
             [this](const PreviewImage& image)

@@ -19,8 +19,12 @@ LightActions::LightActions(Host& host, QObject* parent)
     add(mSurfaces, QStringLiteral("lampblack.surfaces"), tr("Generate Surfaces"),
         tr("Find the volume of every frame now. Then you see the light at once while you scrub and play."));
     add(mRender, QStringLiteral("lampblack.render"), tr("Render All Frames"),
-        tr("Light every frame with the chosen quality. You get a layer \"Lit\", and picture files in the "
-           "folder of the project"));
+        host.can(Host::Ability::Deliver)
+            ? tr("Light every frame with the chosen quality. You get a layer \"Lit\", and picture files in "
+                 "the "
+                 "folder of the project")
+            : tr("Light every frame with the chosen quality. You get picture files in a folder beside the "
+                 "drawing"));
     add(mCancel, QStringLiteral("lampblack.cancel"), tr("Cancel"),
         tr("Stop generating or rendering. Frames that are done are kept."));
     mCancel->setEnabled(false);

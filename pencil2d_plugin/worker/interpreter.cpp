@@ -10,6 +10,7 @@
 #include <QJsonObject>
 
 #include <dlfcn.h>
+#include <link.h>
 
 namespace lampblack
 {
@@ -23,7 +24,10 @@ QString pluginFolder()
 {
     static const char anchor = 0;
     Dl_info found{};
-    if (dladdr(&anchor, &found) == 0 || found.dli_fname == nullptr)
+    void* extra = nullptr;
+    const bool isFound = dladdr1(&anchor, &found, &extra, RTLD_DL_LINKMAP) != 0 && extra != nullptr;
+    // A program is named as it was called: that may be a name in another folder, one that nobody trusts.
+    if (!isFound || *static_cast<const link_map*>(extra)->l_name == '\0')
     {
         return QCoreApplication::applicationDirPath();
     }
@@ -79,6 +83,19 @@ UserError notInstalled(const Interpreter& interpreter, const QString& details)
             QStringLiteral("Python: %1 (named by %2)\n%3")
                 .arg(interpreter.path.isEmpty() ? QStringLiteral("none") : interpreter.path,
                      interpreter.source, details)};
+}
+
+std::optional<UserError> whyUnusable(const Interpreter& interpreter)
+{
+    const QFileInfo python(interpreter.path);
+    if (interpreter.path.isEmpty() || !python.isFile() || !python.isExecutable())
+        return notInstalled(interpreter, QStringLiteral("There is no such program."));
+    if (!isToInstall(interpreter))
+        return std::nullopt;
+    const QString version = installedVersion(interpreter);
+    const QString has =
+        QStringLiteral("Installed: \"%1\". Wanted: \"%2\".").arg(version, QStringLiteral(LAMPBLACK_VERSION));
+    return version.isEmpty() ? notInstalled(interpreter, has) : versionMismatch(interpreter, has);
 }
 
 UserError versionMismatch(const Interpreter& interpreter, const QString& details)

@@ -5,6 +5,8 @@
 
 #include <QString>
 
+#include <optional>
+
 namespace lampblack
 {
 
@@ -31,6 +33,9 @@ QString installedVersion(const Interpreter& interpreter);
 
 /// What is said when `interpreter` cannot run a worker.
 UserError notInstalled(const Interpreter& interpreter, const QString& details);
+
+/// Why nothing can be run by `interpreter`; no value if something can.
+std::optional<UserError> whyUnusable(const Interpreter& interpreter);
 
 /// What is said when plugin and worker do not speak the same protocol.
 UserError versionMismatch(const Interpreter& interpreter, const QString& details);

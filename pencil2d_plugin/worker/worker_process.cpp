@@ -3,11 +3,10 @@
 #include "own_folder.h"
 #include "protocol/connection.h"
 #include "protocol/messages.h"
+#include "worker/clean_environment.h"
 
 #include <QCoreApplication>
 #include <QDir>
-#include <QFileInfo>
-#include <QProcessEnvironment>
 
 #include <algorithm>
 
@@ -29,34 +28,6 @@ constexpr int RestartDelaysMs[] = {0, 1000, 3000};
 constexpr int MaxDeaths = 4;
 constexpr qint64 MinuteMs = 60000;
 constexpr int MaxStderrBytes = 4096;
-
-/// The variables that a worker needs. Others could change which Python modules or libraries it loads.
-QProcessEnvironment cleanEnvironment(const QString& folder)
-{
-    static const QStringList kept = {QStringLiteral("HOME"), QStringLiteral("PATH"),
-                                     QStringLiteral("USER"), QStringLiteral("LOGNAME"),
-                                     QStringLiteral("LANG"), QStringLiteral("LANGUAGE")};
-    static const QStringList keptPrefixes = {QStringLiteral("LC_"), QStringLiteral("XDG_"),
-                                             QStringLiteral("LAMPBLACK_")};
-    const QProcessEnvironment ours = QProcessEnvironment::systemEnvironment();
-    QProcessEnvironment clean;
-    const QStringList names = ours.keys();
-    for (const QString& name : names)
-    {
-        const auto startsWith = [&name](const QString& prefix)
-        {
-            return name.startsWith(prefix);
-        };
-        if (kept.contains(name) || std::any_of(keptPrefixes.begin(), keptPrefixes.end(), startsWith))
-        {
-            clean.insert(name, ours.value(name));
-        }
-    }
-    // Its socket, and other files that it leaves if it is killed, are removed with this folder.
-    clean.insert(QStringLiteral("TMPDIR"), folder);
-    clean.remove(QStringLiteral("XDG_RUNTIME_DIR"));
-    return clean;
-}
 
 /// A process that goes on if it is stopped when this one ends: only then can it see that, and end too.
 class Child : public QProcess
@@ -136,18 +107,9 @@ void WorkerProcess::giveUp(UserError error)
 
 void WorkerProcess::launch()
 {
-    const QFileInfo python(mInterpreter.path);
-    if (mInterpreter.path.isEmpty() || !python.isFile() || !python.isExecutable())
+    if (const std::optional<UserError> error = whyUnusable(mInterpreter))
     {
-        giveUp(notInstalled(mInterpreter, QStringLiteral("There is no such program.")));
-        return;
-    }
-    if (isToInstall(mInterpreter))
-    {
-        const QString version = installedVersion(mInterpreter);
-        const QString has = QStringLiteral("Installed: \"%1\". Wanted: \"%2\".")
-                                .arg(version, QStringLiteral(LAMPBLACK_VERSION));
-        giveUp(version.isEmpty() ? notInstalled(mInterpreter, has) : versionMismatch(mInterpreter, has));
+        giveUp(*error);
         return;
     }
     mFolder = std::make_unique<QTemporaryDir>(ownFolderTemplate());

@@ -15,7 +15,7 @@ from PIL import Image
 
 from support.paths import BUILD, ROOT
 from support.registration import luminance
-from support.window import Pencil2D, wait_until
+from support.window import Pencil2D, Program, wait_until
 
 SIZE = (640, 720)
 SHOTS = BUILD.parent / "screenshots"
@@ -56,12 +56,12 @@ class Canvas:
         return self._window.display.screenshot(left, top, right - left, bottom - top)
 
 
-def keep(window: Pencil2D, name: str) -> None:
+def keep(window: Program, name: str) -> None:
     SHOTS.mkdir(parents=True, exist_ok=True)
     Image.fromarray(window.screenshot()).save(SHOTS / f"{name}.png")
 
 
-def settled(window: Pencil2D) -> None:
+def settled(window: Program) -> None:
     """Wait for the converged picture of the scene as it is now."""
     wait_until(lambda: window.value("lampblack", "settled"), "a converged picture", 120)
 

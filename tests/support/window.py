@@ -99,16 +99,19 @@ class Display:
         return np.frombuffer(ran.stdout, np.uint8).reshape(height, width, 3)
 
 
-class Pencil2D:
-    """A running Pencil2D. Coordinates are the screen's."""
+class Program:
+    """A running program with a canvas that the lamp lights. Coordinates are the screen's."""
+
+    canvas = ""
+    """Class of the canvas widget."""
 
     def __init__(
         self,
         display: Display,
         folder: Path,
-        project: Path | None,
+        command: list[str],
         *,
-        plugin: bool = True,
+        plugins: str = "lampblackprobe",
         python: str = sys.executable,
         scale: float = 1.0,
     ) -> None:
@@ -116,10 +119,10 @@ class Pencil2D:
         for each in (home, temporary):
             each.mkdir(parents=True, exist_ok=True)
         self.display, self._scale, self._killed = display, scale, False
+        self._name = Path(command[0]).name
         self._socket_name = str(folder / "probe")
         with suppress(FileNotFoundError):
             Path(self._socket_name).unlink()
-        keys = "lampblack,lampblackprobe" if plugin else "lampblackprobe"
         environment = {
             **os.environ,
             "DISPLAY": display.name,
@@ -129,44 +132,29 @@ class Pencil2D:
             "XDG_CONFIG_HOME": str(home / ".config"),
             "LC_ALL": "C.UTF-8",
             "QT_PLUGIN_PATH": str(PLUGINS),
-            "QT_QPA_GENERIC_PLUGINS": keys,
+            "QT_QPA_GENERIC_PLUGINS": plugins,
             "QT_SCALE_FACTOR": str(scale),
             "LAMPBLACK_PROBE": self._socket_name,
             "LAMPBLACK_PYTHON": python,
             "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "2"),
         }
         temporary.chmod(0o700)
-        self.log = folder / "pencil2d.log"
+        self.log = folder / f"{self._name}.log"
         self._output = self.log.open("ab")
-        command = ["pencil2d", *([str(project)] if project else [])]
         self.process = subprocess.Popen(
             command, env=environment, stdout=self._output, stderr=self._output, cwd=folder
         )
         self._probe = self._connect()
-        wait_until(lambda: self.of_class("ScribbleArea"), "Pencil2D's canvas")
-        title = project.name if project else "Pencil2D"
-        self.window = wait_until(lambda: self._main_window(title), "Pencil2D's window")
-        if plugin:  # until a test asks for it, another tool sees the plain drawing
-            wait_until(lambda: self.find("lampblack.keep_light"), "the plugin")
-            self.set("lampblack.keep_light", "checked", False)
-        self.display.do("windowsize", "--sync", self.window, *(round(n * scale) for n in WINDOW))
+        wait_until(lambda: self.of_class(self.canvas), "the canvas")
+
+    def take_window(self, title: str) -> None:
+        """Find the main window, and put it where screenshots are made."""
+        self.window = wait_until(lambda: self._main_window(title), f"the window of {title}")
+        self.display.do(
+            "windowsize", "--sync", self.window, *(round(n * self._scale) for n in WINDOW)
+        )
         self.display.do("windowmove", "--sync", self.window, 2, 20)
         self.display.do("windowactivate", "--sync", self.window)
-
-    def open(self, project: Path) -> None:
-        """Put the lamp away and open another project, as a file manager would ask for it."""
-        self.trigger("actionSave")
-        wait_until(
-            lambda: not self.of_class("MainWindow2")["properties"]["windowModified"], "saving"
-        )
-        self.display.do("windowactivate", "--sync", self.window)
-        self.click("pencilButton")
-        self.ask_to_open(project)
-        wait_until(lambda: self.value("lampblack", "project") == str(project), "the project")
-
-    def ask_to_open(self, project: Path) -> None:
-        """As a file manager would; the lamp stays in use."""
-        assert self._ask({"do": "open", "path": str(project)})["done"]
 
     def kill(self) -> None:
         """End it as a crash would."""
@@ -183,7 +171,7 @@ class Pencil2D:
             self.process.kill()
             self.process.wait(10)
         self._output.close()
-        assert not died, f"Pencil2D ended with {died}:\n{self.log.read_text()[-3000:]}"
+        assert not died, f"{self._name} ended with {died}:\n{self.log.read_text()[-3000:]}"
 
     def find(self, name: str) -> dict[str, Any]:
         """What the probe says of the object called ``name``; empty if there is none."""
@@ -222,7 +210,7 @@ class Pencil2D:
             of the watch before: the milliseconds since its start and the share of the canvas's
             pixels, whenever that changed.
         """
-        asked = {"do": "watch", "name": "ScribbleArea", "colours": colours}
+        asked = {"do": "watch", "name": self.canvas, "colours": colours}
         return [(at, share) for at, share in self._ask(asked)["taken"]]
 
     def latency(self, name: str) -> list[float]:
@@ -242,7 +230,7 @@ class Pencil2D:
         return self.display.screenshot(0, 0, width, height)
 
     def canvas_picture(self) -> NDArray[np.uint8]:
-        return self.display.screenshot(*self.rect("ScribbleArea"))
+        return self.display.screenshot(*self.rect(self.canvas))
 
     def click(self, name: str, button: int = 1) -> None:
         """Click in the middle of a widget, once it stands still: docks are laid out late."""
@@ -289,7 +277,7 @@ class Pencil2D:
                 return True
             return False
 
-        wait_until(reached, "the probe in Pencil2D")
+        wait_until(reached, "the probe in the program")
         self._lines = probe.makefile("rb")
         return probe
 
@@ -298,6 +286,50 @@ class Pencil2D:
         answer: dict[str, Any] = json.loads(self._lines.readline())
         assert "error" not in answer, answer
         return answer
+
+
+class Pencil2D(Program):
+    """A running Pencil2D."""
+
+    canvas = "ScribbleArea"
+
+    def __init__(
+        self,
+        display: Display,
+        folder: Path,
+        project: Path | None,
+        *,
+        plugin: bool = True,
+        python: str = sys.executable,
+        scale: float = 1.0,
+    ) -> None:
+        super().__init__(
+            display,
+            folder,
+            ["pencil2d", *([str(project)] if project else [])],
+            plugins="lampblack,lampblackprobe" if plugin else "lampblackprobe",
+            python=python,
+            scale=scale,
+        )
+        if plugin:  # until a test asks for it, another tool sees the plain drawing
+            wait_until(lambda: self.find("lampblack.keep_light"), "the plugin")
+            self.set("lampblack.keep_light", "checked", False)
+        self.take_window(project.name if project else "Pencil2D")
+
+    def open(self, project: Path) -> None:
+        """Put the lamp away and open another project, as a file manager would ask for it."""
+        self.trigger("actionSave")
+        wait_until(
+            lambda: not self.of_class("MainWindow2")["properties"]["windowModified"], "saving"
+        )
+        self.display.do("windowactivate", "--sync", self.window)
+        self.click("pencilButton")
+        self.ask_to_open(project)
+        wait_until(lambda: self.value("lampblack", "project") == str(project), "the project")
+
+    def ask_to_open(self, project: Path) -> None:
+        """As a file manager would; the lamp stays in use."""
+        assert self._ask({"do": "open", "path": str(project)})["done"]
 
 
 @contextmanager

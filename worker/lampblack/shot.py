@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -126,6 +126,57 @@ class Shot(Protocol):
     def finish(self, frame: ShotFrame, lit: NDArray[Sample]) -> NDArray[Sample]:
         """The finished frame: the lit cel, (H, W, 4) sRGB with straight alpha (bytes, or 0 to 1),
         composited with the layers around it and seen through the camera."""
+
+
+@dataclass(frozen=True)
+class PictureLayer:
+    """A layer that a program may show: its name, which no other one has, and whether the artist
+    has left it visible."""
+
+    name: str
+    visible: bool
+
+
+@dataclass(frozen=True)
+class PaintedLayer:
+    """What a layer shows in a frame.
+
+    Attributes:
+        identity: a digest of all that ``paint`` depends on.
+        paint: makes the picture, (H, W, 4) uint8 sRGB with straight alpha.
+    """
+
+    name: str
+    identity: str
+    paint: Callable[[], Picture]
+
+
+class LayeredShot(Protocol):
+    """The frames of a drawing with their layers apart, as they are seen through the camera.
+
+    Attributes:
+        size: of the canvas, (width, height) pixels.
+        numbers: of the frames, ascending.
+        layers: all layers, bottom first.
+    """
+
+    size: tuple[int, int]
+    fps: int
+    numbers: Sequence[int]
+    layers: Sequence[PictureLayer]
+
+    def view(self, number: int) -> Affine:
+        """From canvas to picture."""
+
+    def painted(self, number: int) -> list[PaintedLayer]:
+        """The layers of a frame that show something, bottom first.
+
+        Raises:
+            DrawingError: the frame cannot be read.
+        """
+
+    def whole(self, number: int) -> PaintedLayer | None:
+        """All visible layers together; None if they are merely painted over each other."""
 
 
 def by_number(frames: Sequence[ShotFrame]) -> dict[int, ShotFrame]:

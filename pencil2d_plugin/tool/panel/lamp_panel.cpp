@@ -40,7 +40,7 @@ std::optional<Show> modeOf(int button)
 LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAction& render)
     : mViews(new QButtonGroup(this)), mDepthHelp(new QLabel), mProblem(new ProblemCard),
       mInstall(new InstallCard(findInterpreter().installer)),
-      mRender(new RenderSection(document, surfaces, render)), mDevice(new DeviceRow(host)),
+      mRender(new RenderSection(host, document, surfaces, render)), mDevice(new DeviceRow(host)),
       mWorkerLine(new WorkerLine), mProgress(new JobProgress(QStringLiteral("lampblack.panel"), false)),
       mHeader(new QWidget(this))
 {

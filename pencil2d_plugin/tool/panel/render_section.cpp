@@ -6,6 +6,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QPainter>
+#include <QStandardItemModel>
 
 #include <array>
 
@@ -53,7 +54,8 @@ QVector<Kind> apartKinds()
 
 } // namespace
 
-RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction& render, QWidget* parent)
+RenderSection::RenderSection(Host& host, SceneDocument& document, QAction& surfaces, QAction& render,
+                             QWidget* parent)
     : Section(QStringLiteral("lampblack.panel.render_section"), tr("Whole animation"), true, parent),
       mDocument(document), mRender(render), mRange(new QComboBox(this)), mQuality(new QComboBox(this)),
       mApart(new QComboBox(this)), mHide(new QCheckBox(tr("Hide the sources"), this)),
@@ -116,7 +118,20 @@ RenderSection::RenderSection(SceneDocument& document, QAction& surfaces, QAction
             });
     connect(&document, &SceneDocument::sceneChanged, this, &RenderSection::refresh);
     setOutdated(0, 0);
+    if (!host.can(Host::Ability::Deliver))
+        restrictToFiles(host.whyNot(Host::Ability::Deliver));
     refresh();
+}
+
+void RenderSection::restrictToFiles(const QString& reason)
+{
+    mHide->setEnabled(false);
+    mHide->setToolTip(reason);
+    auto* kinds = qobject_cast<QStandardItemModel*>(mApart->model());
+    const int inProject = mApart->findData(int(ApartKind::Pencil2d));
+    kinds->item(inProject)->setEnabled(false);
+    kinds->item(inProject)->setToolTip(reason);
+    kinds->item(mApart->findData(int(ApartKind::None)))->setToolTip(tr("The lit frames, as PNG files"));
 }
 
 ApartKind RenderSection::apart() const

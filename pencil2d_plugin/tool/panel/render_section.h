@@ -1,6 +1,7 @@
 // Jobs for the whole animation, and the worker's state.
 #pragma once
 
+#include "host/host.h"
 #include "scene/scene_document.h"
 #include "tool/panel/section.h"
 #include "tool/shot_range.h"
@@ -20,7 +21,8 @@ class RenderSection : public Section
 
 public:
     /// The actions behind the buttons.
-    RenderSection(SceneDocument& document, QAction& surfaces, QAction& render, QWidget* parent = nullptr);
+    RenderSection(Host& host, SceneDocument& document, QAction& surfaces, QAction& render,
+                  QWidget* parent = nullptr);
 
     /// How many frames of the result layer are out of date, and how many it has.
     void setOutdated(int outdated, int total);
@@ -37,6 +39,9 @@ private:
     void updateRenderText();
 
     SceneDocument& mDocument;
+    /// Without layers that can be added, frames become files only.
+    void restrictToFiles(const QString& reason);
+
     QAction& mRender;
     QComboBox* mRange;
     QComboBox* mQuality;

@@ -21,6 +21,7 @@ COMMANDS: Commands = {
     "mesh": ("lampblack.cli.surface:mesh", "Inflate drawings into closed relief meshes."),
     "turntable": ("lampblack.cli.turntable:turntable", "Show a drawing's relief from the sides."),
     "export": ("lampblack.cli.export:export", "Write one frame as a 3D scene for other programs."),
+    "layers": ("lampblack.cli.layers:layers", "Write the layers of each frame as PNG files."),
     "palette": ("lampblack.cli.stages:palette", "List the flat colours of drawings."),
     "scene": ("lampblack.cli.stages:scene", "Write a scene file to start from."),
     "train": ("lampblack_research.cli.train:train", "Train a normal network."),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..camera import Affine
+
 
 @dataclass(frozen=True)
 class Region:
@@ -16,3 +18,9 @@ class Region:
     width: int
     height: int
     scale: float = 1.0
+
+    def through(self, view: Affine) -> Affine:
+        """From the region's pixels to those of a picture; ``view`` is from the canvas to it."""
+        a, b, c, d, e, f = view
+        a, b, d, e = (each / self.scale for each in (a, b, d, e))
+        return a, b, c + a * self.left + b * self.top, d, e, f + d * self.left + e * self.top

@@ -16,7 +16,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..camera import Affine, is_flat, look_through, on_canvas, scene_in_view
+from ..camera import Affine, is_flat, is_shift, look_through, on_canvas, scene_in_view
 from ..choices import FrameLayers
 from ..drawing.load import MAX_PIXELS, MAX_SIDE
 from ..errors import LampblackWarning, ProjectError
@@ -62,7 +62,7 @@ class ProjectShot:
         if layers == "lit":
             self._stack = replace(self._stack, below=(), above=())
         self._views = [self._camera.at(number) for number in range(1, project.length + 1)]
-        self.region = _region(self._camera, self._views)
+        self.region = seen_region(self._camera, self._views)
         origin = self._camera.width // 2, self._camera.height // 2
         vectors = VectorPictures(archive, origin)
         self._painter = LayerPainter(LayerPictures(archive, self.region, origin, vectors))
@@ -150,11 +150,7 @@ class ProjectShot:
         return (np.rint(seen * 255) if lit.dtype == np.uint8 else seen).astype(lit.dtype)
 
     def _through(self, number: int) -> Affine:
-        """From the region's pixels to the picture's."""
-        a, b, c, d, e, f = self._views[number - 1]
-        a, b, d, e = (each / self.region.scale for each in (a, b, d, e))
-        left, top = self.region.left, self.region.top
-        return a, b, c + a * left + b * top, d, e, f + d * left + e * top
+        return self.region.through(self._views[number - 1])
 
 
 def _is_drawn(layer: Layer, frame: int) -> bool:
@@ -172,7 +168,7 @@ def _choose(project: Project, name: str | None) -> Camera:
     )
 
 
-def _region(camera: Camera, views: Sequence[Affine]) -> Region:
+def seen_region(camera: Camera, views: Sequence[Affine]) -> Region:
     """The part of the canvas that the camera sees, over all frames. Where it shows the canvas at
     half size or smaller in every frame, no more is painted than that."""
     corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * [camera.width, camera.height]
@@ -199,6 +195,14 @@ def _region(camera: Camera, views: Sequence[Affine]) -> Region:
     left, top = np.floor(low + 1e-6) if scale == 1 else low * scale
     width, height = np.ceil(high * scale - (left, top) - 1e-6).astype(int)
     return Region(float(left), float(top), int(width), int(height), float(scale))
+
+
+def picture_through(picture: Picture, camera: Affine, size: tuple[int, int]) -> Picture:
+    """A picture with straight alpha, (H, W, 4) uint8 sRGB, seen through ``camera``."""
+    if is_shift(camera):
+        return look_through(picture, camera, size)
+    seen = _straight(look_through(_premultiplied(picture), camera, size))
+    return np.asarray(np.rint(seen * 255), np.uint8)
 
 
 def _number(frame: ShotFrame) -> int:

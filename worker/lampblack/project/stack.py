@@ -112,9 +112,13 @@ def is_painted_light(name: str, roles: Roles) -> bool:
     return name == LIGHT_LAYER and roles.get(name, "background") == "background"
 
 
+def is_named_as_result(name: str) -> bool:
+    """Whether a layer of this name holds rendered frames, if no role says otherwise."""
+    return name == RESULT_LAYER or name.startswith(f"{RESULT_LAYER}: ")
+
+
 def _is_result(layer: Layer, roles: Roles) -> bool:
-    made = layer.name == RESULT_LAYER or layer.name.startswith(f"{RESULT_LAYER}: ")
-    return made and layer.name not in roles
+    return is_named_as_result(layer.name) and layer.name not in roles
 
 
 def _check_names(project: Project, roles: Roles) -> None:
