@@ -12,6 +12,7 @@ BIN := $(VENV)/bin
 OUT ?= out/demo
 SHEET ?= out/demo.png
 PROJECT ?=
+WINDOW_TESTS ?= tests/window
 PYTHON_OF_WORKER := $(abspath $(BIN)/python)
 export VENV
 
@@ -65,10 +66,11 @@ test-newest:
 	NEWEST=1 $(MAKE) test VENV=build/newest
 
 # The plugin in the Pencil2D of this Debian; in that of Debian 13, and of Debian unstable (as root).
+# WINDOW_TESTS=tests/window/test_pencil2d_layer.py for some.
 test-window: test-environment
 	cmake --preset dev >/dev/null && cmake --build --preset dev --target $(IN_PENCIL2D)
 	ctest --preset dev -R '^host_'
-	$(BIN)/pytest tests/window
+	$(BIN)/pytest $(WINDOW_TESTS)
 
 test-trixie test-sid: test-%:
 	scripts/debian_root.sh $* make test-window
