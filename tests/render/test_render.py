@@ -113,7 +113,7 @@ def test_lights_traced_as_one_are_the_sum_of_all(
         dome, Canvas(64, 64), lights, floor=Floor(50), quality=quality(128, floor_spp=256)
     )
     expected = mixture_of(child.render(apart), lights, ambient)
-    found = child.render(replace(apart, mixed_with=ambient))
+    found = child.render(replace(apart, ambient=False, mixed_with=ambient))
     assert found.lights == ()
     assert found.mixture is not None
     row, column = np.mgrid[:64, :64] + 0.5
@@ -140,7 +140,7 @@ def test_lights_traced_as_one_have_no_more_noise(child: RenderChild) -> None:
         assert light is not None
         return float(np.sqrt(((light.diffuse - truth.diffuse)[inside] ** 2).mean()))
 
-    together = child.render(replace(apart, mixed_with=ambient)).mixture
+    together = child.render(replace(apart, ambient=False, mixed_with=ambient)).mixture
     assert error(together) < 1.1 * error(mixture_of(child.render(apart), lights, ambient))
 
 

@@ -10,7 +10,7 @@ import pytest
 from lampblack.colour import hex_linear
 from lampblack.composite import composite
 from lampblack.composite.byte_layers import byte_layers_of
-from lampblack.composite.shading import needs_each_light
+from lampblack.composite.shading import needs_ambient, needs_each_light
 from lampblack.drawing.decompose import decompose_drawing
 from lampblack.materials import MaterialTable
 from lampblack.render.passes import DARK, LightPasses, Passes
@@ -59,11 +59,9 @@ def test_the_picture_is_that_of_the_lights_apart() -> None:
     [
         ({}, False),
         ({"look": Look(tones=(0.5,))}, True),
-        ({"look": Look(contact=0.5)}, True),
         ({"look": Look(shade_strength=0.5)}, True),
         ({"look": Look(ink_light=0.5)}, False),
         ({"default_material": Material(look="cel")}, True),
-        ({"default_material": Material(glossy=True, gloss=0.1)}, True),
         ({"lights": (replace(LIGHTS[0], colours=("#ff0000",)),)}, True),
     ],
 )
@@ -72,6 +70,31 @@ def test_lights_stay_apart_where_the_look_needs_them(
 ) -> None:
     scene = replace(lit(), **change)  # type: ignore[arg-type]
     assert needs_each_light(scene, MaterialTable.of(scene, ())) is apart
+
+
+def test_ambient_light_stays_apart_where_paint_reflects_less_of_it() -> None:
+    plain = lit()
+    for scene, apart in (
+        (plain, False),
+        (replace(plain, look=Look(contact=0.5)), True),
+        (replace(plain, default_material=Material(glossy=True, gloss=0.1)), True),
+    ):
+        materials = MaterialTable.of(scene, ())
+        assert needs_ambient(scene, materials) is apart
+        assert not needs_each_light(scene, materials)
+
+
+def test_glossy_paint_looks_the_same_under_a_mixture_of_the_lights() -> None:
+    gloss = Material(glossy=True, gloss=0.6)
+    drawing, scene = decompose_drawing(draw_ball(SIZE)), replace(lit(), default_material=gloss)
+    ambient, lights = random_light(3), (random_light(1), random_light(2))
+    dark = replace(scene, ambient=replace(scene.ambient, strength=0.0))
+    together = replace(mixed(Passes(lights, ambient), dark), ambient=ambient)
+    one, other = (
+        composite(drawing, passes, scene).astype(int)
+        for passes in (Passes(lights, ambient), together)
+    )
+    assert abs(one - other).max() <= 1
 
 
 def test_suns_beside_other_lights_and_lights_without_shadows_stay_apart() -> None:
@@ -84,7 +107,13 @@ def test_suns_beside_other_lights_and_lights_without_shadows_stay_apart() -> Non
 
 def test_only_light_that_is_seen_is_traced() -> None:
     scene = replace(lit(), lights=(replace(LIGHTS[0], on=False), LIGHTS[1]))
-    request = as_mixture(RenderRequest(plane(8, 8), scene.canvas, scene.lights), scene)
+    request = as_mixture(
+        RenderRequest(plane(8, 8), scene.canvas, scene.lights), scene, with_ambient=True
+    )
     assert request.lights == (LIGHTS[1],)
     assert request.mixed_with == scene.ambient
     assert not request.ambient
+    apart = as_mixture(request, scene, with_ambient=False)
+    assert apart.ambient
+    assert apart.mixed_with is not None
+    assert apart.mixed_with.strength == 0

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from .cache import ArrayCache
 from .choices import DeviceChoice, GlowName, PipelineOptions
 from .composite import composite
-from .composite.shading import needs_each_light
+from .composite.shading import needs_ambient, needs_each_light
 from .drawing import Drawing, DrawingPlanes
 from .materials import MaterialTable
 from .normals.temporal.temporal_filter import LazyNeighbours
@@ -162,7 +162,10 @@ class Pipeline:
         glows = prepared.glows(scene)
         materials = MaterialTable.of(scene, prepared.palette.colours)
         if mixed and mixable(scene.lights) and not needs_each_light(scene, materials):
-            return self.renderer.render(as_mixture(request(scene, glows), scene))
+            apart = needs_ambient(scene, materials)
+            mixture = as_mixture(request(scene, glows), scene, with_ambient=not apart)
+            if len(mixture.lights) > 1 or not apart:  # one light is its own mixture
+                return self.renderer.render(mixture)
         return self._light_passes.complete(prepared.layers, scene, trace, glows)
 
     def render(

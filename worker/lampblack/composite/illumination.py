@@ -166,8 +166,8 @@ def weigh(passes: Passes, scene: Scene) -> list[Source]:
             )
             if shines
         ]
-        ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
-        found.append(Source(ambient, passes.ambient))
+    ambient = hex_linear(scene.ambient.colour) * np.float32(scene.ambient.strength)
+    found.append(Source(ambient, passes.ambient))
     for glow in get_args(GlowName):
         if (traced := getattr(passes, glow)) is not None:
             found.append(Source(glow_weight(glow, scene), traced, is_glow=True))

@@ -75,11 +75,15 @@ class Shading:
 
 
 def needs_each_light(scene: Scene, materials: MaterialTable) -> bool:
-    """Whether the composite tells the sources of ``scene`` apart: their sum is not enough for it.
-    Glossy paint reflects less of ambient light than of other light."""
+    """Whether the composite tells the lights of ``scene`` apart: their sum is not enough for it."""
     linked = any(Link.of(light) is not None for light in scene.lights)
-    own = linked or bool(materials.gloss.any()) or scene.look.contact > 0
-    return own or _needs_tones(scene.look, materials)
+    return linked or _needs_tones(scene.look, materials)
+
+
+def needs_ambient(scene: Scene, materials: MaterialTable) -> bool:
+    """Whether the composite tells the ambient light of ``scene`` from its lights: glossy paint
+    reflects less of it."""
+    return bool(materials.gloss.any()) or scene.look.contact > 0
 
 
 def _needs_tones(look: Look, materials: MaterialTable) -> bool:

@@ -118,7 +118,7 @@ class RenderChild:
 
     def render(self, request: RenderRequest) -> Passes:
         """Trace every light of ``request``, and the ambient light and emitters if it asks for them;
-        or all lights and the ambient light as one.
+        or all lights, and the ambient light that they are mixed with, as one.
 
         The surface is sent only if it differs from the last one. Without ambient light, its pass
         is 1 x 1 zeros.
@@ -133,7 +133,7 @@ class RenderChild:
             if request.mixed_with is not None:
                 together = Mixture(request.lights, request.mixed_with)
                 mixture = self._trace(request, mixture=together)
-                request = replace(request, lights=(), ambient=False)
+                request = replace(request, lights=())
             lights = tuple(self._trace(request, light) for light in request.lights)
             ambient = self._trace(request) if request.ambient else DARK
             return Passes(lights, ambient, **glows, mixture=mixture, device=self._on.device)

@@ -45,8 +45,8 @@ class Passes:
         ambient: the ambient light of strength 1.
         emission: emissive colours, the brightest of them with an emission of 1; None without any.
         painted: painted light of power 1; None without any.
-        mixture: all lights and the ambient light in their colours and powers, traced as one. Then
-            ``lights`` is empty and ``ambient`` dark.
+        mixture: all lights, in their colours and powers, traced as one. Then ``lights`` is empty;
+            where the ambient light is part of it, ``ambient`` is dark.
         device: what traced all of it.
     """
 

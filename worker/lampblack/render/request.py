@@ -53,7 +53,8 @@ class RenderRequest:
         rect: part of the canvas to trace, (x, y, width, height) in canvas pixels; None for all.
         quality: resolution and samples.
         glows: trace the light of these emitters of the surface as well.
-        mixed_with: trace ``lights`` and this ambient light as one, in their colours and powers.
+        mixed_with: trace ``lights`` and this ambient light as one, in their colours and powers;
+            with ``ambient``, that of strength 1 on its own as well.
     """
 
     surface: Surface
@@ -94,14 +95,15 @@ def mixable(lights: Sequence[AreaLight]) -> bool:
     return all(light.casts_shadow and (alone or light.kind == "lamp") for light in lights)
 
 
-def as_mixture(request: RenderRequest, scene: Scene) -> RenderRequest:
-    """``request`` for all lights of ``scene`` and its ambient light, traced as one."""
+def as_mixture(request: RenderRequest, scene: Scene, *, with_ambient: bool) -> RenderRequest:
+    """``request`` for all lights of ``scene``, traced as one; its ambient light is part of that, or
+    on its own."""
     shown = zip(scene.lights, shining(scene.lights), strict=True)
     return replace(
         request,
         lights=tuple(light for light, shines in shown if shines and light.power),
-        ambient=False,
-        mixed_with=scene.ambient,
+        ambient=not with_ambient,
+        mixed_with=scene.ambient if with_ambient else replace(scene.ambient, strength=0.0),
     )
 
 
