@@ -19,7 +19,7 @@ namespace
 
 constexpr int ReadingMs = 3000;
 constexpr int WarningMs = 15000;
-constexpr int DockWidth = 250; // pixels
+constexpr int DockWidth = 280; // pixels: three buttons of a card
 
 QSettings settings()
 {

@@ -31,11 +31,13 @@ PROGRAMS = ("pencil2d", "Xvfb", "openbox", "xdotool", "import")
 def missing() -> str:
     """What the machine lacks to run these tests; empty if nothing."""
     lacking = [name for name in PROGRAMS if shutil.which(name) is None]
-    lacking += [
-        str(PLUGINS / "generic" / name)
-        for name in ("liblampblack.so", "liblampblackprobe.so")
-        if not (PLUGINS / "generic" / name).exists()
-    ]
+    plugins = PLUGINS / "generic"
+    built = (
+        plugins / "liblampblack.so",
+        plugins / "liblampblackprobe.so",
+        BUILD / "lampblack-window",
+    )
+    lacking += [str(path) for path in built if not path.exists()]
     return ", ".join(lacking)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from psd_tools.constants import BlendMode
 
 from lampblack.drawing import load_picture, save_picture
 from lampblack.errors import OutputError
@@ -19,8 +20,10 @@ from lampblack.project import read_project
 from lampblack.project.shot import ProjectShot
 from support.command_line import Run, files
 from support.drawings import draw_ball
+from support.layered import apart, blob
 from support.paths import ROOT
 from support.projects import document, image, layer, png, write_project
+from unit import test_psd as photoshop
 from unit.test_ora import write_ora
 
 Record = dict[str, Any]
@@ -130,3 +133,18 @@ def test_the_folder_does_not_grow_without_end(
     monkeypatch.setattr(layer_files, "MAX_BYTES", 10)
     with pytest.raises(OutputError, match="GiB"):
         list(write_layers(open_layers(str(drawing)), tmp_path))
+
+
+def test_a_photoshop_file_is_shown_as_photoshop_shows_it(tmp_path: Path) -> None:
+    psd = photoshop.new()
+    photoshop.put(psd, "body", blob((200, 40, 60), soft=0), (10, 10))
+    shade = blob((40, 60, 200))
+    photoshop.put(psd, "shade", shade, (25, 20), blend_mode=BlendMode.MULTIPLY).clipping = True
+    photoshop.put(psd, "arm", blob((40, 180, 60), (30, 12)), (40, 22))
+    drawing = photoshop.saved(tmp_path, psd)
+    shot, frame = write_layers(open_layers(str(drawing)), tmp_path)
+    assert [one["name"] for one in shot["layers"]] == ["body", "arm"]
+    expected = photoshop.their_composite(drawing)
+    assert apart(load_picture(tmp_path / frame["whole"]), expected).max() <= 2
+    # What is clipped goes with its base, so the layers alone are right too.
+    assert apart(together(tmp_path, frame, shot["canvas"]), expected).max() <= 3
