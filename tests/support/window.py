@@ -302,13 +302,14 @@ class Pencil2D(Program):
         project: Path | None,
         *,
         plugin: bool = True,
+        program: str = "pencil2d",
         python: str = sys.executable,
         scale: float = 1.0,
     ) -> None:
         super().__init__(
             display,
             folder,
-            ["pencil2d", *([str(project)] if project else [])],
+            [program, *([str(project)] if project else [])],
             plugins="lampblack,lampblackprobe" if plugin else "lampblackprobe",
             python=python,
             scale=scale,
