@@ -63,9 +63,11 @@ def document(
     size: tuple[int, int] = (200, 160),
     version: str = "0.6.6",
 ) -> str:
+    """The XML of a project, whose first layer above the camera is the one that is drawn on."""
     path = "" if version.startswith("0.6") else ' showPath="1"'
     return (
         "<!DOCTYPE PencilDocument><document><projectdata>"
+        f'<currentLayer value="{min(1, len(layers))}"/>'
         '<fps value="12"/><isRangedPlayback value="false"/><markOutFrame value="99"/>'
         '</projectdata><object><layer id="1" type="5" name="Camera" visibility="1" '
         f'width="{size[0]}" height="{size[1]}"{path}>{camera}</layer>{"".join(layers)}</object>'
