@@ -15,6 +15,10 @@ COMMANDS: Commands = {
     "estimate": ("lampblack.cli.estimate:estimate", "Estimate time and disk space of a render."),
     "job": ("lampblack.cli.job:job", "Write an OpenJD job template that lights a shot."),
     "serve": ("lampblack.cli.serve:serve", "Serve a drawing program with previews and renders."),
+    "key": (
+        "lampblack.cli.key:key",
+        "Make a pair of keys, for a worker that serves other machines.",
+    ),
     "normals": ("lampblack.cli.surface:normals", "Predict the normal maps of drawings."),
     "height": ("lampblack.cli.surface:height", "Inflate drawings into heights, as arrays."),
     "depth": ("lampblack.cli.surface:depth", "Show which parts of drawings are in front."),

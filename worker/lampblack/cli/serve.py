@@ -9,17 +9,36 @@ from typing import Annotated
 import typer
 
 from ..choices import DeviceChoice
+from ..errors import LampblackError
 
 
 def serve(
     connection: Annotated[
-        Path,
+        Path | None,
         typer.Option(
             "--connection",
             metavar="FILE",
-            help="File to write the address and key to, once ready; see SPEC.md.",
+            help="File to write the address to, once ready; see SPEC.md.",
         ),
-    ],
+    ] = None,
+    listen: Annotated[
+        str | None,
+        typer.Option(
+            "--listen",
+            metavar="HOST:PORT",
+            help="Serve other machines on this address, encrypted; with --key and --admit.",
+        ),
+    ] = None,
+    key: Annotated[
+        Path | None,
+        typer.Option("--key", metavar="FILE", help="Secret key of this machine (.key_secret)."),
+    ] = None,
+    admit: Annotated[
+        Path | None,
+        typer.Option(
+            "--admit", metavar="FOLDER", help="Public keys (.key) of all who may connect."
+        ),
+    ] = None,
     parent_pid: Annotated[
         int | None,
         typer.Option(
@@ -41,10 +60,20 @@ def serve(
 
     Example: lampblack serve --connection /run/user/1000/lampblack.json --parent-pid $$
     """
-    from ..service.serve import serve_forever
+    from ..service.serve import Listening, serve_forever
+
+    where: Path | Listening | None = connection
+    if listen is not None and key is not None and admit is not None and connection is None:
+        where = Listening(listen, key, admit)
+    if where is None or (isinstance(where, Path) and (listen or key or admit)):
+        raise LampblackError(
+            "It is not clear whom to serve.",
+            "Give --connection for a program on this machine; or --listen, --key and --admit for "
+            "other machines.",
+        )
 
     # The drawing program has priority when both need a processor.
     os.nice(5)
-    serve_forever(connection, parent_pid, device)
+    serve_forever(where, parent_pid, device)
     # The drawing program has ended. An interpreter would wait for what its threads compute.
     os._exit(0)

@@ -39,6 +39,7 @@ from ..protocol import (
 from ..protocol.fields import Message
 from ..scene import Scene
 from .endpoint import read_connection
+from .keys import KeyPair
 
 Kind = TypeVar("Kind", bound=Message)
 NamedLayers = Sequence[tuple[str, Pixels]]
@@ -50,15 +51,21 @@ class Client:
     It keeps the drawings that it announced, and answers need_frame itself.
 
     Args:
-        endpoint: address from the connection file.
+        endpoint: address from the connection file, or of a worker that listens.
+        keys: of this client, and ``worker_key`` the public key of the worker, if it listens.
     """
 
-    def __init__(self, endpoint: str) -> None:
+    def __init__(
+        self, endpoint: str, keys: KeyPair | None = None, worker_key: bytes | None = None
+    ) -> None:
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         self.socket = self._context.socket(zmq.DEALER)
         self.socket.setsockopt(zmq.LINGER, 0)
         self.socket.setsockopt(zmq.RCVHWM, 4)
         self.socket.setsockopt(zmq.MAXMSGSIZE, LIMITS.plane_bytes)
+        if keys is not None and worker_key is not None:
+            self.socket.curve_publickey, self.socket.curve_secretkey = keys.public, keys.secret
+            self.socket.curve_serverkey = worker_key
         self.socket.connect(endpoint)
         self.welcome: Welcome | None = None
         self.revision = 0

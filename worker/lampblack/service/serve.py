@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import select
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext, suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 import zmq
@@ -17,34 +19,47 @@ from ..render import RenderChild
 from ..warning_collector import install_warning_collector
 from .endpoint import connection_file, private_endpoint
 from .jobs import NICENESS
+from .keys import only_admitted, read_keys
 from .server import Server
 from .service import Service
 from .socket import RouterSocket
 
 
+@dataclass(frozen=True)
+class Listening:
+    """What a worker listens on for other machines: an address such as ``10.0.0.5:7100``, the file
+    of its secret key, and the folder of the public keys of those that it admits."""
+
+    address: str
+    key: Path
+    admitted: Path
+
+
 def serve_forever(
-    connection: Path, parent: int | None = None, device: DeviceChoice = "auto"
+    where: Path | Listening, parent: int | None = None, device: DeviceChoice = "auto"
 ) -> None:
     """Serve until interrupted, or until the process ``parent`` ends.
 
     Socket, file and child processes are removed at the end. ``device`` traces previews and jobs.
 
+    Args:
+        where: the connection file of a worker for this user on this machine; or what to listen on.
+
     Raises:
-        LampblackError: there is no such parent, or the socket or the file cannot be made.
+        LampblackError: there is no such parent, or the socket, the file or the keys cannot be used.
     """
     watched = None if parent is None else _watch(parent)
     install_warning_collector()
     context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
     try:
-        with private_endpoint() as endpoint:
-            socket = RouterSocket(context, endpoint)
+        with _bound(context, where) as (socket, endpoint):
             try:
                 cache = surface_cache()
                 previews, finals = RenderChild(device=device), RenderChild(NICENESS, device)
                 jobs = Pipeline(cache, renderer=finals)
                 service = Service(socket, previews, Pipeline(cache), jobs)
                 previews.on_slow = finals.on_slow = service.tell_slow
-                with connection_file(connection, endpoint):
+                with connection_file(where, endpoint) if isinstance(where, Path) else nullcontext():
                     Server(socket, service).run(lambda: _is_gone(watched), watched)
             finally:
                 socket.close()
@@ -53,6 +68,28 @@ def serve_forever(
         if watched is not None:
             with suppress(OSError):
                 os.close(watched)
+
+
+@contextmanager
+def _bound(
+    context: zmq.Context[zmq.Socket[bytes]], where: Path | Listening
+) -> Iterator[tuple[RouterSocket, str]]:
+    """A socket that the caller closes, and its address."""
+    if not isinstance(where, Listening):
+        with private_endpoint() as endpoint:
+            yield RouterSocket(context, endpoint), endpoint
+        return
+    keys, endpoint = read_keys(where.key), f"tcp://{where.address}"
+    with only_admitted(context, where.admitted):
+        try:
+            socket = RouterSocket(context, endpoint, keys)
+        except zmq.ZMQError as error:
+            raise LampblackError(
+                f"The worker cannot listen on {where.address}.",
+                "Give an address of this machine and a free port: --listen 10.0.0.5:7100",
+                str(error),
+            ) from error
+        yield socket, endpoint
 
 
 def _watch(pid: int) -> int:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 import zmq
 
 from ..protocol import LIMITS
+from .keys import KeyPair
 from .outbox import Frames, Outbox
 
 HIGH_WATER = 4
@@ -25,16 +26,32 @@ class RouterSocket:
     Args:
         context: ZeroMQ context.
         endpoint: address to bind to.
+        keys: talk by CURVE, with these keys.
+
+    Raises:
+        zmq.ZMQError: it cannot be bound to.
     """
 
-    def __init__(self, context: zmq.Context[zmq.Socket[bytes]], endpoint: str) -> None:
+    def __init__(
+        self,
+        context: zmq.Context[zmq.Socket[bytes]],
+        endpoint: str,
+        keys: KeyPair | None = None,
+    ) -> None:
         self._router = context.socket(zmq.ROUTER)
+        if keys is not None:
+            self._router.curve_publickey, self._router.curve_secretkey = keys.public, keys.secret
+            self._router.curve_server = True
         self._router.setsockopt(zmq.LINGER, 0)
         self._router.setsockopt(zmq.ROUTER_MANDATORY, 1)
         self._router.setsockopt(zmq.SNDHWM, HIGH_WATER)
         self._router.setsockopt(zmq.RCVHWM, HIGH_WATER)
         self._router.setsockopt(zmq.MAXMSGSIZE, LIMITS.plane_bytes)
-        self._router.bind(endpoint)
+        try:
+            self._router.bind(endpoint)
+        except zmq.ZMQError:
+            self._router.close(0)  # the context would wait for it at its end
+            raise
         self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
         self._events: queue.SimpleQueue[Event] = queue.SimpleQueue()
         self._outboxes: dict[bytes, Outbox] = {}
