@@ -16,8 +16,8 @@ def key(
 ) -> None:
     """Make a pair of keys, for a worker that serves other machines.
 
-    The worker listens with `lampblack serve --listen`. NAME.key is public: give it to the other side.
-    NAME.key_secret stays on this machine.
+    The worker listens with `lampblack serve --listen`. NAME.key is public: give it to the other
+    side. NAME.key_secret stays on this machine.
 
     Example: lampblack key ana -o keys
     """
