@@ -30,7 +30,7 @@ from lampblack.surface import (
 from lampblack.surface_maker import MAX_SURFACE_PX
 
 from ..dataset.gbuffer import MARGIN
-from .clicks import worst_overlap
+from .clicks import best_correction
 
 MAX_CHARACTER_PX = MAX_SURFACE_PX - 2 * MARGIN
 """Longest character whose surface is made at the size of the picture."""
@@ -77,11 +77,12 @@ class NetworkMethod:
         return MeasuredSurface(prepared.height, prepared.relief())
 
     def corrected(self, lines: Lines, mask: Mask, depth: NDArray[np.float32]) -> MeasuredSurface:
-        """The surface after one correct click (``worst_overlap``); ``depth`` is the truth."""
+        """The surface after one correct click or stroke
+        (``best_correction``); ``depth`` is the truth."""
         prediction = self._predictor.predict(lines, mask, grids=self._grids)
         dividing = dividing_lines(lines, lines, mask)
         height, overlaps = solve_with_overlaps(prediction, mask, dividing)
-        click = worst_overlap(overlaps, depth)
+        click = best_correction(overlaps, guided_filter(height, mask), depth)
         if click is not None:
             height, _ = solve_with_overlaps(prediction, mask, dividing, (click,))
         return surface_of_height(guided_filter(height, mask), mask)
