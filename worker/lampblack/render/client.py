@@ -32,7 +32,7 @@ from .device import USED, memory_path
 from .passes import DARK, LightPasses, Passes
 from .request import RenderRequest, Surface
 from .spent import Activity
-from .watched_pipe import WatchedPipe, unblocked
+from .watched_pipe import Stalled, WatchedPipe, unblocked
 from .wire import (
     Accumulate,
     Array,
@@ -387,7 +387,8 @@ class RenderChild:
         status, log = None, ""
         if self._process and self._log:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                status = self._process.wait(timeout=2)
+                # A child that hangs has no status to wait for.
+                status = self._process.wait(timeout=0 if isinstance(error, Stalled) else 2)
             self._log.seek(max(0, self._log.seek(0, os.SEEK_END) - 4096))
             log = self._log.read().decode(errors="replace").strip()
         gave_up = self._give_up_card()
