@@ -23,7 +23,8 @@ import numpy as np
 import psutil
 
 from lampblack.scene import default_scene, encode_scene
-from support.window import ROOT, Display, Pencil2D, missing, pencil2d, wait_until
+from support.paths import ROOT
+from support.window import Display, Pencil2D, missing, pencil2d, wait_until
 
 SIZE = (640, 720)
 
