@@ -32,7 +32,8 @@ def layers(
     """
     import msgspec
 
-    from ..errors import LampblackError, OutputError
+    from ..atomic import make_folder
+    from ..errors import LampblackError
     from ..finals.layer_files import as_record, open_layers, write_layers
 
     def tell(record: object) -> None:
@@ -40,12 +41,7 @@ def layers(
         sys.stdout.flush()
 
     try:
-        try:
-            output.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise OutputError(
-                f"The folder {output} cannot be made.", "Choose another.", str(error)
-            ) from error
+        make_folder(output)
         for record in write_layers(open_layers(settings.inputs[0]), output, first):
             tell(record)
     except LampblackError as error:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..errors import LampblackError
+from ..atomic import make_folder
 from ..finals.settings import RenderSettings
 from .console import progress_bar
 from .options import with_settings
@@ -65,12 +65,7 @@ def turntable(
     if animated:
         save_gif(output, loop)
         return
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise LampblackError(
-            f"The folder {output} cannot be made.", "Choose another.", str(error)
-        ) from error
+    make_folder(output)
     for number, picture in enumerate(loop, start=1):
         opaque = np.full((*picture.shape[:2], 1), 255, np.uint8)
         name = f"{Path(shown.frame.name).stem}.turn.{number:04d}.png"

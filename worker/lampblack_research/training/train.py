@@ -15,7 +15,8 @@ from typing import cast
 import torch
 from torch import nn
 
-from lampblack.errors import LampblackError, OutputError
+from lampblack.atomic import make_folder
+from lampblack.errors import LampblackError
 from lampblack.normals.card import NetworkCard, load_network
 from lampblack.normals.networks import CharacterNet, build_network
 
@@ -83,12 +84,7 @@ def train(
             cannot be used.
     """
     torch.set_num_threads(options.threads)
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"The run folder {output} cannot be made.", "Choose another.", str(error)
-        ) from error
+    make_folder(output)
     torch.manual_seed(options.seed)
     network = _initial_network(card, init_from).train()
     average = build_network(card.architecture)
