@@ -18,7 +18,7 @@ from lampblack.cache import ArrayCache
 from lampblack.cli import main
 from lampblack.drawing import Drawing, save_picture
 from lampblack.pipeline import Pipeline
-from lampblack.render import LightPasses, Passes
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.surface import Overlap
 from lampblack.surface_maker import SurfaceMaker
 from support.command_line import Outcome, Run

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from lampblack.render import RenderChild
+from lampblack.render.client import RenderChild
 from lampblack.service.client import Worker
 
 

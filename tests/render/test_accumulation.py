@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from lampblack.errors import RenderError
-from lampblack.render import Accumulate, RenderChild, Surface
+from lampblack.render.client import RenderChild
+from lampblack.render.request import Surface
+from lampblack.render.wire import Accumulate
 from lampblack.scene import AreaLight, Canvas, Floor
 from support.surfaces import ball
 

@@ -11,7 +11,9 @@ import pytest
 from lampblack.drawing import save_picture
 from lampblack.errors import LampblackWarning, RenderError
 from lampblack.finals.png import png_stamp
-from lampblack.render import Quality, RenderChild, RenderRequest, Sampling
+from lampblack.render.client import RenderChild
+from lampblack.render.quality import Quality, Sampling
+from lampblack.render.request import RenderRequest
 from lampblack.render.survey import survey
 from lampblack.scene import AreaLight, Canvas
 from support import fake_card

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from lampblack.drawing import DrawingPlanes
 from lampblack.pipeline import Pipeline
-from lampblack.render import Accumulate
 from lampblack.render.client import RenderChild
 from lampblack.render.emitters import glowing_parts, painted_plane
 from lampblack.render.quality import Quality, Sampling
 from lampblack.render.request import RenderRequest
+from lampblack.render.wire import Accumulate
 from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Material, Scene
 from support.drawings import draw_ball
 from support.surfaces import height_relief, plane, surface

@@ -12,7 +12,7 @@ from lampblack.colour import linear
 from lampblack.composite import composite
 from lampblack.drawing import Drawing, decompose_cel, decompose_drawing
 from lampblack.pipeline import Pipeline
-from lampblack.render import Surface, frame_request
+from lampblack.render.request import Surface, frame_request
 from lampblack.scene import Ambient, AreaLight, Scene, default_scene
 from lampblack.surface import Relief
 from support.drawings import draw_capsule, layered_cel

@@ -11,8 +11,8 @@ import pytest
 from lampblack.camera import on_canvas, scene_in_view
 from lampblack.colour import linear
 from lampblack.composite import composite
-from lampblack.render import Passes
 from lampblack.render.client import RenderChild
+from lampblack.render.passes import Passes
 from lampblack.render.quality import Quality, Sampling
 from lampblack.render.request import RenderRequest
 from lampblack.scene import Ambient, AreaLight, Canvas, Scene

@@ -29,7 +29,9 @@ from lampblack.protocol import (
     decode,
     frame_digest,
 )
-from lampblack.render import Accumulate, LightPasses, Passes, RenderRequest, Surface
+from lampblack.render.passes import LightPasses, Passes
+from lampblack.render.request import RenderRequest, Surface
+from lampblack.render.wire import Accumulate
 from lampblack.scene import Scene
 from lampblack.service.handlers import handle
 from lampblack.service.service import Service

@@ -35,7 +35,7 @@ from lampblack.finals.ora import ora_stamp, save_ora
 from lampblack.finals.targets import Targets
 from lampblack.project import read_project
 from lampblack.project.shot import ProjectShot
-from lampblack.render import LightPasses, Passes
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Look, Material, Rim, Scene
 from support.command_line import Run, files
 from support.drawings import draw_ball, draw_capsule

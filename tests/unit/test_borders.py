@@ -15,7 +15,7 @@ from lampblack.composite.byte_layers import byte_layers_of, premultiplied
 from lampblack.composite.illumination import Illumination
 from lampblack.drawing import Drawing, Palette
 from lampblack.drawing.palette import Swatch
-from lampblack.render import LightPasses, Passes
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import Ambient, Material, Scene, default_scene
 
 SIZE = 64

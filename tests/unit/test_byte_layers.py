@@ -12,7 +12,7 @@ from lampblack.composite import composite
 from lampblack.composite.byte_layers import byte_layers_of, premultiplied
 from lampblack.composite.illumination import Illumination
 from lampblack.drawing import decompose_drawing
-from lampblack.render import LightPasses, Passes
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import Floor, Material, default_scene
 from support.drawings import draw_ball
 

@@ -13,9 +13,9 @@ from lampblack.farm.tasks import on_one_device
 from lampblack.finals.png import save_png
 from lampblack.finals.settings import RenderSettings
 from lampblack.finals.targets import Targets, device_stamp
-from lampblack.render import LightPasses, Passes
 from lampblack.render.device import DRIVERS, Card, Memory, Verdict, choose
 from lampblack.render.light_pass_cache import LightPassCache
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import Scene, default_scene
 from lampblack.shot import ShotFrame
 

@@ -17,7 +17,8 @@ from lampblack.drawing import decompose_drawing, load_picture, save_picture
 from lampblack.errors import LampblackError, RenderError
 from lampblack.finals.targets import Targets
 from lampblack.pipeline import Pipeline
-from lampblack.render import LightPasses, Passes, RenderChild
+from lampblack.render.client import RenderChild
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import (
     Ambient,
     AreaLight,

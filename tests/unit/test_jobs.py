@@ -17,7 +17,7 @@ from lampblack.errors import RenderError
 from lampblack.pipeline import Pipeline
 from lampblack.preview import PreviewState
 from lampblack.protocol import Cancel, Done, ErrorMessage, FrameDone, Render
-from lampblack.render import RenderRequest
+from lampblack.render.request import RenderRequest
 from lampblack.scene import Depth, LayerBody, default_scene
 from lampblack.service.client import Client
 from lampblack.service.jobs import MAX_WAITING, Jobs

@@ -14,6 +14,7 @@ import zmq
 from zmq.utils.monitor import recv_monitor_message
 
 from lampblack.errors import LampblackError, OutputError
+from lampblack.render.client import RenderChild
 from lampblack.service.client import Client
 from lampblack.service.keys import KeyPair, make_keys, only_admitted, read_keys, read_public_key
 from lampblack.service.serve import Listening, serve_forever
@@ -178,9 +179,9 @@ def test_a_worker_does_not_listen_without_knowing_for_whom(tmp_path: Path) -> No
         (tmp_path / "missing", tmp_path, "no secret key"),
     ):
         with pytest.raises(LampblackError, match=words):
-            serve_forever(Listening("127.0.0.1:0", key, admitted))
+            serve_forever(Listening("127.0.0.1:0", key, admitted), RenderChild())
     with pytest.raises(LampblackError, match="cannot listen on"):
-        serve_forever(Listening("203.0.113.9:1", secret, tmp_path))
+        serve_forever(Listening("203.0.113.9:1", secret, tmp_path), RenderChild())
 
 
 @pytest.mark.parametrize(

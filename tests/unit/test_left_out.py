@@ -10,7 +10,9 @@ import pytest
 
 from lampblack.atomic import atomic_file
 from lampblack.drawing import save_picture
-from lampblack.render import LightPasses, Passes, RenderChild, RenderRequest
+from lampblack.render.client import RenderChild
+from lampblack.render.passes import LightPasses, Passes
+from lampblack.render.request import RenderRequest
 from support.command_line import Run
 from support.drawings import draw_ball
 

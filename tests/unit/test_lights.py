@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from lampblack.composite.illumination import Illumination
-from lampblack.render import LightPasses, Passes
 from lampblack.render.light_pass_cache import LightPassCache
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import (
     MAX_KEYS,
     MAX_LIGHTS,

@@ -21,7 +21,7 @@ from lampblack.errors import (
 )
 from lampblack.preview import request as requests
 from lampblack.protocol import Bye, Cancel
-from lampblack.render import Accumulate
+from lampblack.render.wire import Accumulate
 from lampblack.scene import Ambient, AreaLight, Floor, Scene, default_scene
 from lampblack.service.faults import error_code
 from support.drawings import draw_ball, draw_capsule, layered_cel

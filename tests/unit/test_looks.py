@@ -19,7 +19,7 @@ from lampblack.composite.illumination import Illumination
 from lampblack.composite.resample import Band
 from lampblack.composite.tones import tone_shares, tones_of
 from lampblack.drawing import Drawing, decompose_drawing
-from lampblack.render import LightPasses, Passes
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import (
     Ambient,
     AreaLight,

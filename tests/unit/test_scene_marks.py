@@ -12,8 +12,8 @@ from lampblack.drawing import decompose_drawing
 from lampblack.materials import MaterialTable
 from lampblack.prepared import PreparedDrawing
 from lampblack.preview.contribution import contributions_of
-from lampblack.render import LightPasses, Passes
 from lampblack.render.light_pass_cache import LightPassCache
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import Ambient, AreaLight, Floor, Material, Scene, default_scene
 from support.drawings import draw_ball
 

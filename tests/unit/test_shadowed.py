@@ -13,7 +13,7 @@ from lampblack.composite.byte_layers import byte_layers_of, premultiplied
 from lampblack.composite.form import Form
 from lampblack.composite.illumination import Illumination
 from lampblack.drawing import Drawing, decompose_drawing
-from lampblack.render import LightPasses, Passes
+from lampblack.render.passes import LightPasses, Passes
 from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Look, Scene
 
 SIZE = 200

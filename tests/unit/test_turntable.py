@@ -10,7 +10,9 @@ from PIL import Image
 
 from lampblack.drawing import load_picture, save_picture
 from lampblack.finals.turntable import CLAY, PAPER, swing
-from lampblack.render import LightPasses, Passes, RenderChild, RenderRequest
+from lampblack.render.client import RenderChild
+from lampblack.render.passes import LightPasses, Passes
+from lampblack.render.request import RenderRequest
 from support.command_line import Run, files
 from support.drawings import draw_ball
 

@@ -22,9 +22,11 @@ from .materials import MaterialTable
 from .normals.temporal.temporal_filter import LazyNeighbours
 from .preparation import prepare, prepare_quick
 from .prepared import PreparedDrawing
-from .render import QUALITIES, Passes, RenderChild, RenderRequest, Surface, frame_request
+from .render.client import RenderChild
 from .render.light_pass_cache import LightPassCache
-from .render.request import as_mixture, mixable
+from .render.passes import Passes
+from .render.quality import QUALITIES
+from .render.request import RenderRequest, Surface, as_mixture, frame_request, mixable
 from .scene import Hint, LayerBody, Scene
 from .surface_maker import Predictor, Progress, SurfaceMaker, no_progress
 
@@ -132,7 +134,7 @@ class Pipeline:
         self, planes: DrawingPlanes, digest: str = "", choices: Sequence[LayerBody] = ()
     ) -> PreparedDrawing:
         """See ``preparation.prepare_quick``."""
-        return prepare_quick(self.surfaces.predictor, planes, digest, choices)
+        return prepare_quick(self.surfaces.first_look, planes, digest, choices)
 
     def light(
         self,

@@ -17,7 +17,8 @@ from .composite.form import Form
 from .composite.resample import Box
 from .drawing import Drawing, Palette
 from .materials import MaterialTable
-from .render import Surface, assign_materials, glowing_parts, painted_plane, vertex_pixels
+from .render.emitters import glowing_parts, painted_plane
+from .render.request import Surface, assign_materials, vertex_pixels
 from .scene import Pin, Scene
 from .surface import Base, Relief, build_relief, joined_reliefs
 from .surface.overlap import Overlap

@@ -16,6 +16,7 @@ from .drawing import Drawing
 from .drawing.morphology import from_nearest
 from .hints import hints_by_body, scaled_hint
 from .normals.bend_strokes import BendStroke
+from .normals.network import has_torch, soon_loaded_network
 from .normals.predict import NormalPredictor
 from .normals.prediction import Prediction, pack_order, unpack_order
 from .normals.temporal.temporal_filter import LazyNeighbours, TemporalFilter, body_neighbours
@@ -74,7 +75,7 @@ class SurfaceMaker:
         self, cache: ArrayCache, options: PipelineOptions, predictor: Predictor | None = None
     ) -> None:
         self._cache = cache
-        self._predictor = predictor
+        self._predictor = self._first_look = predictor
         self._temporal_filter = TemporalFilter()
         self.options = options
 
@@ -82,8 +83,16 @@ class SurfaceMaker:
     def predictor(self) -> Predictor:
         """The network; the first use loads it."""
         if self._predictor is None:
-            self._predictor = NormalPredictor()
+            self._predictor = NormalPredictor() if has_torch() else self.first_look
         return self._predictor
+
+    @property
+    def first_look(self) -> Predictor:
+        """The network for quick normals, for which nobody wants to wait: the first use loads it
+        soon."""
+        if self._first_look is None:
+            self._first_look = NormalPredictor(*soon_loaded_network())
+        return self._first_look
 
     def normals(
         self,

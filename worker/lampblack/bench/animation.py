@@ -11,7 +11,9 @@ from ..finals.render_shot import render_shot
 from ..finals.resolve import resolve_job
 from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline
-from ..render import Passes, RenderChild, RenderRequest
+from ..render.client import RenderChild
+from ..render.passes import Passes
+from ..render.request import RenderRequest
 from ..shot import by_drawing
 from .memory import peak_gib, processor_seconds
 

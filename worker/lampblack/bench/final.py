@@ -16,8 +16,10 @@ from ..cache import ArrayCache
 from ..composite import composite
 from ..drawing import decompose_drawing
 from ..pipeline import Pipeline
-from ..render import QUALITIES, Passes, RenderChild, frame_request
-from ..render.quality import REFERENCE
+from ..render.client import RenderChild
+from ..render.passes import Passes
+from ..render.quality import QUALITIES, REFERENCE
+from ..render.request import frame_request
 from ..scene import Floor, Scene
 from .memory import peak_gib, processor_seconds
 

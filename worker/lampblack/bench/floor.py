@@ -18,7 +18,7 @@ from ..preview import LightContribution, Viewport, ViewRequest
 from ..preview.contribution import preview_surface
 from ..preview.refinement import MOVING, REFINEMENT
 from ..preview.shape import DrawingShape
-from ..render import RenderChild
+from ..render.client import RenderChild
 from ..scene import Scene
 
 RENDERS = 15

@@ -60,12 +60,8 @@ def serve(
 
     Example: lampblack serve --connection /run/user/1000/lampblack.json --parent-pid $$
     """
-    from ..service.serve import Listening, serve_forever
-
-    where: Path | Listening | None = connection
-    if listen is not None and key is not None and admit is not None and connection is None:
-        where = Listening(listen, key, admit)
-    if where is None or (isinstance(where, Path) and (listen or key or admit)):
+    network = (listen, key, admit)
+    if not ((all(network) and connection is None) or (connection is not None and not any(network))):
         raise LampblackError(
             "It is not clear whom to serve.",
             "Give --connection for a program on this machine; or --listen, --key and --admit for "
@@ -74,6 +70,16 @@ def serve(
 
     # The drawing program has priority when both need a processor.
     os.nice(5)
-    serve_forever(where, parent_pid, device)
+    from ..render.client import RenderChild
+
+    # The renderer loads while this process loads everything else.
+    with RenderChild(device=device) as renderer:
+        from ..service.serve import Listening, serve_forever
+
+        where: Path | Listening | None = connection
+        if listen is not None and key is not None and admit is not None:
+            where = Listening(listen, key, admit)
+        assert where is not None
+        serve_forever(where, renderer, parent_pid, device)
     # The drawing program has ended. An interpreter would wait for what its threads compute.
     os._exit(0)

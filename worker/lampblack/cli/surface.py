@@ -124,7 +124,7 @@ def mesh(
     from ..cache import surface_cache
     from ..choices import PipelineOptions
     from ..pipeline import Pipeline
-    from ..surface import save_mesh
+    from ..surface.export import save_mesh
 
     shot, targets = _resolve(settings, output, "glb", "obj", "ply")
     with Pipeline(surface_cache(), PipelineOptions(settings.grids, settings.solver)) as pipeline:

@@ -18,7 +18,7 @@ from ..composite.reflection import character_light
 from ..composite.resample import Band, enlarge
 from ..drawing import Drawing
 from ..prepared import PreparedDrawing
-from ..render import Passes
+from ..render.passes import Passes
 from ..scene import Scene
 from ..shot import Shot, ShotFrame
 

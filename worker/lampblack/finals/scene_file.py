@@ -16,7 +16,9 @@ from ..atomic import atomic_file, atomic_path
 from ..drawing import Drawing
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
-from ..render import QUALITIES, RenderChild, frame_request
+from ..render.client import RenderChild
+from ..render.quality import QUALITIES
+from ..render.request import frame_request
 from ..scene import Scene, shining
 from ..surface import Relief
 from .left_out import warn_without_glows

@@ -14,7 +14,9 @@ from ..errors import LampblackError, LampblackWarning, NothingDrawnError
 from ..normals.card import shipped_weights
 from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
-from ..render import QUALITIES, Passes, Surface
+from ..render.passes import Passes
+from ..render.quality import QUALITIES
+from ..render.request import Surface
 from ..scene import Canvas, Scene, encode_scene
 from ..shot import Cel, Picture, ShotFrame, by_drawing
 from ..timeline import is_keyed, scene_at

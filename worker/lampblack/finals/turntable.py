@@ -17,7 +17,8 @@ from ..composite import composite
 from ..drawing import Drawing
 from ..pipeline import Pipeline
 from ..prepared import PreparedDrawing
-from ..render import LightPasses, Passes, frame_request
+from ..render.passes import LightPasses, Passes
+from ..render.request import frame_request
 from ..scene import Material, Scene
 from ..surface import Relief, visible_faces
 from .left_out import warn_without_glows

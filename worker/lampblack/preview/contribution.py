@@ -18,7 +18,8 @@ from ..composite.linking import Link
 from ..composite.resample import Box
 from ..materials import MaterialTable
 from ..prepared import PreparedDrawing
-from ..render import Accumulate, Surface
+from ..render.request import Surface
+from ..render.wire import Accumulate
 from ..scene import AreaLight, Canvas, Floor, Scene, shining
 from .refinement import REFINEMENT, RefinementLevel
 

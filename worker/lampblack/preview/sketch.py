@@ -17,7 +17,7 @@ from ..compiled import compiled
 from ..composite.open_light import open_light, towards
 from ..composite.resample import Box
 from ..prepared import PreparedDrawing
-from ..render import LightPasses, Passes
+from ..render.passes import LightPasses, Passes
 from ..scene import AreaLight, Canvas, Scene, shining
 
 Floats = NDArray[np.float32]

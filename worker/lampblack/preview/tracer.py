@@ -15,7 +15,8 @@ from scipy.ndimage import gaussian_filter
 
 from ..errors import RenderError, RenderRestartedError
 from ..prepared import PreparedDrawing
-from ..render import Accumulate, Surface
+from ..render.request import Surface
+from ..render.wire import Accumulate
 from ..scene import AreaLight, Canvas, Scene
 from ..surface import Relief
 from .contribution import LightContribution, preview_surface, surface_key

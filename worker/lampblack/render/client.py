@@ -19,7 +19,7 @@ from dataclasses import replace
 from io import FileIO
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Literal, Self, cast
+from typing import IO, TYPE_CHECKING, Literal, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,6 @@ from ..own_folder import own_folder
 from ..scene import Ambient, AreaLight
 from .device import USED, memory_path
 from .passes import DARK, LightPasses, Passes
-from .request import RenderRequest, Surface
 from .spent import Activity
 from .watched_pipe import Stalled, WatchedPipe, unblocked
 from .wire import (
@@ -47,6 +46,10 @@ from .wire import (
     receive,
     send,
 )
+
+if TYPE_CHECKING:
+    # A child is started before all that makes a request is loaded.
+    from .request import RenderRequest, Surface
 
 # The child gets only these: library and Python paths of a drawing program would break it.
 KEPT_VARIABLES = (

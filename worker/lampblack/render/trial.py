@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ..choices import DeviceChoice, DeviceKind
 from ..processors import usable_processors
 from ..scene import AreaLight, Canvas
-from ..surface.relief import build_relief
 from .cards import find_cards
 from .denoise import Denoiser
 from .device import Card, Choice, Verdict, choose
@@ -76,6 +75,9 @@ def difference(expected: LightPasses, found: LightPasses) -> str:
 
 
 def _ball(stage: Stage, denoiser: Denoiser) -> LightPasses:
+    # A card is tried once; the renderer is started often.
+    from ..surface.relief import build_relief
+
     rows, columns = np.mgrid[0:SIDE, 0:SIDE].astype(np.float32)
     middle, radius = SIDE / 2 - 0.5, 0.4 * SIDE
     height = np.sqrt(np.maximum(radius**2 - (rows - middle) ** 2 - (columns - middle) ** 2, 0))

@@ -15,7 +15,7 @@ from ..cache import surface_cache
 from ..choices import DeviceChoice
 from ..errors import LampblackError
 from ..pipeline import Pipeline
-from ..render import RenderChild
+from ..render.client import RenderChild
 from ..warning_collector import install_warning_collector
 from .endpoint import connection_file, private_endpoint
 from .jobs import NICENESS
@@ -36,14 +36,19 @@ class Listening:
 
 
 def serve_forever(
-    where: Path | Listening, parent: int | None = None, device: DeviceChoice = "auto"
+    where: Path | Listening,
+    previews: RenderChild,
+    parent: int | None = None,
+    device: DeviceChoice = "auto",
 ) -> None:
     """Serve until interrupted, or until the process ``parent`` ends.
 
-    Socket, file and child processes are removed at the end. ``device`` traces previews and jobs.
+    Socket, file and child processes are removed at the end.
 
     Args:
         where: the connection file of a worker for this user on this machine; or what to listen on.
+        previews: traces previews, on ``device``; it may have been started.
+        parent: ID of a process. device: what traces jobs.
 
     Raises:
         LampblackError: there is no such parent, or the socket, the file or the keys cannot be used.
@@ -55,7 +60,7 @@ def serve_forever(
         with _bound(context, where) as (socket, endpoint):
             try:
                 cache = surface_cache()
-                previews, finals = RenderChild(device=device), RenderChild(NICENESS, device)
+                finals = RenderChild(NICENESS, device)
                 jobs = Pipeline(cache, renderer=finals)
                 service = Service(socket, previews, Pipeline(cache), jobs)
                 previews.on_slow = finals.on_slow = service.tell_slow

@@ -2,7 +2,6 @@
 
 from .corrections import Corrections, character_length, normals_of
 from .depth_picture import clay_picture, depth_picture, full_size
-from .export import save_mesh
 from .guided import guided_filter
 from .inflate_overlaps import dividing_lines, overlap_votes, solve_with_overlaps
 from .overlap import Overlap
@@ -29,7 +28,6 @@ __all__ = [
     "joined_reliefs",
     "normals_of",
     "overlap_votes",
-    "save_mesh",
     "solve",
     "solve_with_overlaps",
     "stack",

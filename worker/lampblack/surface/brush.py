@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -169,6 +168,9 @@ def _curve(stroke: DepthStroke, radius: float) -> NDArray[np.float64]:
     at = np.union1d(np.linspace(0, along[-1], count), along)
     if len(drawn) == 2:
         return np.stack([np.interp(at, along, axis) for axis in drawn.T], axis=1)
+    # Most drawings have no strokes of the brush, and this takes a tenth of a second to load.
+    from scipy.interpolate import CubicSpline
+
     ring = len(drawn) > 3 and np.hypot(*(drawn[0] - drawn[-1])) < 1e-6
     return np.asarray(CubicSpline(along, drawn, bc_type="periodic" if ring else "natural")(at))
 
