@@ -176,6 +176,10 @@ def install(source: Source, target: Target) -> None:
             shutil.rmtree(folder)
         tell("progress", what="Checking", done=0, total=0)
         _run([str(python), "-I", "-m", "lampblack", "--version"])
+        tell("progress", what="Trying a first picture", done=0, total=0)
+        # It compiles what the artist would wait for at the first click. What is wrong is told then.
+        with contextlib.suppress(Stopped):
+            _run([str(python), "-I", "-m", "lampblack", "doctor"])
         marker = {"version": source.version, "python": sys.version.split()[0]}
         (target.part / MARKER).write_text(json.dumps(marker), encoding="utf-8")
         old = target.folder / "worker.old"

@@ -23,6 +23,12 @@ from support.paths import ROOT
 
 SCRIPT = ROOT / "packaging" / "install_worker.py"
 HERE = "{}.{}".format(*sys.version_info[:2])
+SICK = """
+import needed, pathlib, sys
+if "doctor" in sys.argv:
+    pathlib.Path(__file__).with_name("tried").touch()
+    sys.exit("There is no light.")
+"""
 BLENDER, UNUSED = "bpy/5.2/scripts/a.py", "bpy/5.2/python/lib/python3.13/site-packages/pxr/a.py"
 
 
@@ -52,7 +58,7 @@ def source(folder: Path, version: str = "9.0") -> tuple[Path, Path]:
     shipped, wheels = folder / f"share {version}", folder / "lampblack-wheels"
     shipped.mkdir()
     wheels.mkdir(exist_ok=True)
-    wheel(shipped, "lampblack", version, "import needed")
+    wheel(shipped, "lampblack", version, SICK)
     needed = wheel(wheels, "needed", "1.0", "", BLENDER, UNUSED)
     digest = hashlib.sha256(needed.read_bytes()).hexdigest()
     sizes = "# bytes to download: 0\n# bytes installed: 1000\n"
@@ -102,6 +108,7 @@ def test_it_installs_updates_and_removes_in_a_folder_with_a_strange_name(tmp_pat
     assert sorted(path.name for path in target.iterdir()) == ["worker"]
     (packages,) = (target / "worker").glob("lib/python*/site-packages")
     assert (packages / BLENDER).exists()
+    assert (packages / "lampblack" / "tried").exists()  # what is wrong is told at the first light
     assert not (packages / Path(UNUSED).parents[3]).exists()
 
     newer, _ = source(tmp_path, "9.1")

@@ -9,6 +9,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -17,12 +18,20 @@ from ..errors import LampblackError
 from ..processors import usable_processors
 from .console import EXIT_FAILED, print_error
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+LIVE_SECONDS = 600
+"""A slow machine compiles for minutes."""
+
 
 def doctor() -> None:
     """Check this installation part by part.
 
-    Graphics cards are tried again, with a test picture on each. The last check renders a tiny
-    picture.
+    Graphics cards are tried again, with a test picture on each. The last two checks light a tiny
+    drawing, as a final frame and in a live preview. The first run takes a minute: it compiles loops
+    over pixels, and keeps them.
 
     Example: lampblack doctor
     """
@@ -33,6 +42,7 @@ def doctor() -> None:
         "network": _network,
         "graphics cards": _cards,
         "Cycles": _cycles,
+        "live preview": _live_preview,
     }
     failed = False
     for name, check in checks.items():
@@ -95,13 +105,47 @@ def _cards() -> str:
 
 
 def _cycles() -> str:
-    import numpy as np
-
     from ..api import light
 
-    rows, columns = np.mgrid[-1:1:64j, -1:1:64j]
-    picture = np.zeros((64, 64, 4), np.uint8)
-    picture[np.hypot(rows, columns) < 0.8] = (230, 120, 40, 255)
-    if not light(picture)[..., :3].any():
+    if not light(_two_balls())[..., :3].any():
         raise LampblackError("Cycles rendered black.", "Reinstall bpy.")
     return "renders"
+
+
+def _live_preview() -> str:
+    from ..scene import default_scene
+    from ..service.client import Worker
+
+    drawing = _two_balls()
+    height, width = drawing.shape[:2]
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        Worker(Path(folder), os.getpid()) as worker,
+        worker.connect() as client,
+    ):
+        try:
+            client.hello()
+            client.set_scene(default_scene(width, height))
+            client.announce(1, drawing)
+            client.look(1, (width, height), (0.0, 0.0, float(width), float(height)))
+            client.picture(LIVE_SECONDS, lambda image: image.converged)
+        except TimeoutError as error:
+            raise LampblackError(
+                "The live preview shows nothing.",
+                "Close other programs, and try again.",
+                str(error),
+            ) from error
+    return "lights"
+
+
+def _two_balls() -> NDArray[np.uint8]:
+    """(96, 96, 4): one in front of the other, with lines around them."""
+    import numpy as np
+
+    picture = np.zeros((96, 96, 4), np.uint8)
+    rows, columns = np.indices(picture.shape[:2])
+    for middle, colour in ((36, (230, 120, 40, 255)), (60, (40, 120, 230, 255))):
+        distance = np.hypot(rows - middle, columns - middle)
+        picture[distance < 30] = 20, 20, 20, 255
+        picture[distance < 28] = colour
+    return picture
