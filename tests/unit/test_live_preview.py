@@ -20,10 +20,11 @@ from lampblack.errors import (
     RenderRestartedError,
 )
 from lampblack.preview import request as requests
-from lampblack.protocol import Bye, Cancel
+from lampblack.protocol import Bye, Cancel, Status
 from lampblack.render.wire import Accumulate
 from lampblack.scene import Ambient, AreaLight, Floor, Scene, default_scene
 from lampblack.service.faults import error_code
+from lampblack.service.service import SOON_SECONDS, STATUS_SECONDS
 from support.drawings import draw_ball, draw_capsule, layered_cel
 from support.preview_fakes import Stage
 
@@ -336,3 +337,24 @@ def test_layers_that_are_sent_apart_are_bodies(stage: Stage) -> None:
     assert set(found.tolist()) == {0, 1}
     assert stage.images(ONE)[-1].converged
     assert stage.errors(ONE) == []
+
+
+def test_a_status_follows_a_change_of_state_soon_and_else_after_a_second(stage: Stage) -> None:
+    def told() -> list[str]:
+        sent = (received.message for received in stage.transport.sent[ONE])
+        return [message.preview for message in sent if isinstance(message, Status)]
+
+    service = stage.service
+    service.turn()
+    assert service.patience == STATUS_SECONDS
+    service.preview.state.renderer = "restarting"
+    assert service.patience == pytest.approx(SOON_SECONDS)
+    before = len(told())
+    service.turn()
+    assert len(told()) == before
+    stage.now += SOON_SECONDS + 0.01
+    service.turn()
+    assert told()[before:] == ["restarting"]
+    assert service.patience == STATUS_SECONDS
+    service.preview.tracer.ready()
+    assert len(stage.transport.events) == 1, "the loop wakes, to tell that the renderer is there"

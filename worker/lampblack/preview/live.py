@@ -24,6 +24,9 @@ class PreviewListener(Protocol):
     def on_drawing(self, digest: str, palette: Palette | None, warnings: list[str]) -> None:
         """A drawing was decomposed (then with its palette), prepared, or found unusable."""
 
+    def on_renderer_ready(self) -> None:
+        """The renderer has loaded."""
+
     def on_preview_error(self, session: str, error: Exception) -> None:
         """There is an error with what the session shows."""
 
@@ -50,7 +53,9 @@ class LivePreview:
         self.state = PreviewState(clock)
         self.renderer = renderer
         self.painter = Painter(self.state, listener.on_picture, listener.on_preview_error)
-        self.tracer = Tracer(self.state, self.painter, renderer, self._report_to_all)
+        self.tracer = Tracer(
+            self.state, self.painter, renderer, listener.on_renderer_ready, self._report_to_all
+        )
         self.preparer = Preparer(self.state, pipeline, listener.on_drawing)
         self._listener = listener
         self.threads = [

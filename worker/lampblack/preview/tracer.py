@@ -73,12 +73,14 @@ class Tracer:
 
     Args:
         renderer: the tracer closes it.
+        ready: called once the renderer has loaded.
         report: receives the crash of the renderer, for all sessions with a viewport.
     """
 
     state: PreviewState
     painter: Painter
     renderer: PreviewRenderer
+    ready: Callable[[], None]
     report: Callable[[RenderError], None]
     _surfaces: OrderedDict[Hashable, Surface] = field(default_factory=OrderedDict)
     _failures: dict[Hashable, int] = field(default_factory=dict)
@@ -262,6 +264,7 @@ class Tracer:
         except RenderError as error:
             self._recover(error)
         self.state.renderer = "idle"
+        self.ready()
 
     def _recover(self, error: RenderError) -> None:
         """Start the renderer again, and report it once. After repeated crashes, wait longer each

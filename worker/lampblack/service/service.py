@@ -31,6 +31,8 @@ from .rig_sketches import RigSketches
 from .session import Session
 
 STATUS_SECONDS = 1.0
+SOON_SECONDS = 0.2
+"""After the last status, if a state has changed."""
 END_SECONDS = 1.0
 """Seconds that all threads together get to end."""
 
@@ -99,7 +101,7 @@ class Service:
     @property
     def patience(self) -> float:
         """Seconds until the next status is due."""
-        return max(0.0, self._next_status - self._clock())
+        return max(0.0, self._status_due - self._clock())
 
     def send(self, session: Session, message: Message) -> None:
         """Queue a message for a session."""
@@ -161,6 +163,10 @@ class Service:
         """Send an error of the preview."""
         self.deliver(session, fault_message(error))
 
+    def on_renderer_ready(self) -> None:
+        """Send the status soon."""
+        self._transport.post(lambda: None)
+
     def tell_slow(self) -> None:
         """Tell all clients that a renderer hardly gets to work; any thread may call this."""
         self._tell_all(error_message(ErrorCode.RENDER_SLOW))
@@ -189,13 +195,21 @@ class Service:
         """Make the next status due at once."""
         self._next_status = 0.0
 
-    def _send_status(self) -> None:
+    @property
+    def _current_states(self) -> tuple[object, ...]:
         card = self.preview.renderer.card[:64]
-        states = self.preview.state.renderer, self.jobs.state, self.jobs.waiting, card
+        return self.preview.state.renderer, self.jobs.state, self.jobs.waiting, card
+
+    @property
+    def _status_due(self) -> float:
+        changed = self._current_states != self._states
+        return self._next_status - (STATUS_SECONDS - SOON_SECONDS if changed else 0)
+
+    def _send_status(self) -> None:
         now = self._clock()
-        if now < self._next_status and (states == self._states or now < self._next_status - 0.8):
+        if now < self._status_due:
             return
-        self._states, self._next_status = states, now + STATUS_SECONDS
+        self._states, self._next_status = self._current_states, now + STATUS_SECONDS
         memory = resident_bytes([self.preview.renderer.pid, self.jobs.renderer_pid])
         for session in self.sessions.values():
             status = Status(
@@ -207,6 +221,6 @@ class Service:
                 frames_held=self.planner.frames_held(session),
                 frames_lit=self.planner.frames_lit(session),
                 memory_bytes=memory,
-                card=card,
+                card=self.preview.renderer.card[:64],
             )
             self.send(session, status)
