@@ -12,6 +12,24 @@ namespace
 {
 constexpr int MaxKiB = 128 * 1024;
 constexpr int MaxNormalsKiB = 32 * 1024;
+
+/// Where parts are in front of others, in the image that a camera makes of the canvas.
+QVector<InnerEdge> innerEdges(const QVector<Overlap>& overlaps, const QTransform& canvasToImage)
+{
+    QVector<InnerEdge> edges;
+    for (const Overlap& overlap : overlaps)
+    {
+        if (overlap.front == FrontSide::Joined)
+            continue;
+        InnerEdge edge;
+        for (const OverlapPoint& point : overlap.points)
+            edge.line.append(canvasToImage.map(QPointF(point.x, point.y)));
+        const bool isMirrored = canvasToImage.determinant() < 0;
+        edge.isFrontLeft = (overlap.front == FrontSide::Left) != isMirrored;
+        edges.append(edge);
+    }
+    return edges;
+}
 } // namespace
 
 StandIns::StandIns(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unlit, SceneDocument& document,
@@ -23,6 +41,7 @@ StandIns::StandIns(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unl
     {
         mKept.clear();
         mNormals.clear();
+        mOverlaps.clear();
         mAsked.clear();
     };
     connect(&feed, &FrameFeed::frameOutdated, this,
@@ -30,6 +49,7 @@ StandIns::StandIns(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unl
             {
                 mKept.remove(frame);
                 mNormals.remove(frame);
+                mOverlaps.remove(frame);
                 mAsked.remove(frame);
             });
     connect(&host, &Host::projectOpened, this, forget);
@@ -42,10 +62,10 @@ StandIns::StandIns(Host& host, Worker& worker, FrameFeed& feed, UnlitLayers& unl
                 mDepth = mDocument.scene().depth;
                 forget();
             });
-    connectNormals();
+    connectSurface();
 }
 
-void StandIns::connectNormals()
+void StandIns::connectSurface()
 {
     // A drawing that is lit has its surface: the answer costs the worker next to nothing.
     connect(&mWorker, &Worker::imageArrived, this,
@@ -55,6 +75,13 @@ void StandIns::connectNormals()
                     return;
                 mAsked.insert(image.frame);
                 mWorker.requestNormals(image.frame);
+                mWorker.requestOverlaps(image.frame);
+            });
+    connect(&mWorker, &Worker::overlapsArrived, this,
+            [this](int frame, const QVector<Overlap>& overlaps)
+            {
+                mOverlaps.insert(frame, overlaps);
+                mKept.remove(frame);
             });
     connect(&mWorker, &Worker::normalsArrived, this,
             [this](int frame, const QImage& picture)
@@ -106,7 +133,11 @@ std::optional<StandIn> StandIns::current()
     if (!made.shape.isEmpty())
     {
         if (scene.rim && made.edges.isEmpty())
-            made.edges = edgesOf(made.source.image);
+        {
+            const bool isRead = !exported.image.isNull();
+            const QVector<Overlap> overlaps = isRead ? mOverlaps.value(frame) : QVector<Overlap>();
+            made.edges = edgesOf(made.source.image, innerEdges(overlaps, made.source.canvasToImage));
+        }
         const QTransform& camera = made.source.canvasToImage;
         made.standIn.picture.picture =
             shadedDrawing(made.source.image, made.shape, lightOn(made.shape, scene, camera),

@@ -9,6 +9,7 @@
 #include "worker/worker.h"
 
 #include <QCache>
+#include <QMap>
 #include <QSet>
 
 #include <optional>
@@ -25,8 +26,8 @@ struct StandIn
 };
 
 /// Shades what a frame shows: its lit layers if they have been read, otherwise what the canvas shows at this
-/// moment. A drawing that was lit before has the normals of its real surface, others the guess at it. Shapes
-/// and pictures are kept while they fit. Takes some milliseconds, in the UI thread.
+/// moment. A drawing that was lit before has the normals and the overlaps of its real surface, others the
+/// guess at it. Shapes and pictures are kept while they fit. Takes some milliseconds, in the UI thread.
 class StandIns : public QObject
 {
     Q_OBJECT
@@ -52,7 +53,7 @@ private:
     };
 
     std::optional<FrameExport> seenOnCanvas() const;
-    void connectNormals();
+    void connectSurface();
 
     Host& mHost;
     Worker& mWorker;
@@ -61,8 +62,9 @@ private:
     SceneDocument& mDocument;
     QCache<int, Kept> mKept;      ///< by frame, cost in KiB
     QCache<int, QImage> mNormals; ///< by frame, cost in KiB, see Worker::normalsArrived()
-    QSet<int> mAsked;             ///< frames whose normals are known or asked for
-    Depth mDepth;                 ///< under which they were
+    QMap<int, QVector<Overlap>> mOverlaps;
+    QSet<int> mAsked; ///< frames whose normals and overlaps are known or asked for
+    Depth mDepth;     ///< under which they were
 };
 
 } // namespace lampblack

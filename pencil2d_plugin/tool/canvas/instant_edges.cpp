@@ -79,6 +79,106 @@ float outlineWidth(const QVector<char>& figure, const QVector<float>& depth, con
     return width > WidestLine * std::max(size.width(), size.height()) ? 0 : width;
 }
 
+/// The nearest inner edge of each element.
+class InnerEdges
+{
+public:
+    explicit InnerEdges(const QSize& size)
+        : mSize(size), mNearest(size.width() * size.height(), float(size.width() + size.height())),
+          mIsFront(mNearest.size(), 0)
+    {
+    }
+
+    /// Measure the elements beside `edge`, which is in elements.
+    void add(const InnerEdge& edge)
+    {
+        for (int i = 1; i < edge.line.size(); ++i)
+        {
+            const QPointF begin = edge.line[i - 1];
+            const QPointF along = edge.line[i] - begin;
+            const double length = std::hypot(along.x(), along.y());
+            if (length <= 0)
+                continue;
+            const QPointF way = along / length;
+            const QPointF left(way.y(), -way.x());
+            const QRect around = QRectF(begin, edge.line[i])
+                                     .normalized()
+                                     .adjusted(-Beside, -Beside, Beside, Beside)
+                                     .toAlignedRect()
+                                     .intersected(QRect(QPoint(), mSize));
+            for (int y = around.top(); y <= around.bottom(); ++y)
+            {
+                for (int x = around.left(); x <= around.right(); ++x)
+                {
+                    const QPointF place = QPointF(x + 0.5, y + 0.5) - begin;
+                    const double past = QPointF::dotProduct(place, way);
+                    const double side = QPointF::dotProduct(place, left);
+                    if (past >= -Beside / 2 && past <= length + Beside / 2 && std::abs(side) <= Beside)
+                        take(y * mSize.width() + x, float(std::abs(side)), (side > 0) == edge.isFrontLeft);
+                }
+            }
+        }
+    }
+
+    /// Shorten `depth` to the inner edges. They are in the middle of lines of ink of a width of `line`.
+    void shorten(QVector<float>& depth, float line)
+    {
+        spread();
+        for (int at = 0; at < depth.size(); ++at)
+            if (mIsFront[at] != 0)
+                depth[at] = std::min(depth[at], std::max(0.0F, mNearest[at] - line / 2));
+    }
+
+private:
+    static constexpr double Beside = 1.5; ///< elements
+
+    void take(int at, float distance, bool isFront)
+    {
+        if (distance >= mNearest[at])
+            return;
+        mNearest[at] = distance;
+        mIsFront[at] = isFront ? 1 : 0;
+    }
+
+    /// About how far all others are, and on which side.
+    void spread()
+    {
+        const int width = mSize.width();
+        const int height = mSize.height();
+        const auto sweep = [&](int x, int y, int by)
+        {
+            const int at = y * width + x;
+            const auto from = [&](int other, float away)
+            {
+                if (mNearest.at(other) + away < mNearest.at(at))
+                    take(at, mNearest.at(other) + away, mIsFront.at(other) != 0);
+            };
+            const bool hasBeside = x - by >= 0 && x - by < width;
+            const bool hasAhead = x + by >= 0 && x + by < width;
+            const bool hasRow = y - by >= 0 && y - by < height;
+            const int row = at - by * width;
+            if (hasBeside)
+                from(at - by, 1);
+            if (hasRow)
+                from(row, 1);
+            if (hasRow && hasBeside)
+                from(row - by, Diagonal);
+            if (hasRow && hasAhead)
+                from(row + by, Diagonal);
+        };
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                sweep(x, y, 1);
+        for (int y = height - 1; y >= 0; --y)
+            for (int x = width - 1; x >= 0; --x)
+                sweep(x, y, -1);
+    }
+
+    QSize mSize;
+    QVector<float> mNearest; ///< elements
+    QVector<char> mIsFront;  ///< 1: it is on the part in front
+};
+
 /// Smoothed a little: the silhouette has steps of an element.
 QVector<float> smoothed(const QVector<float>& plane, const QSize& size)
 {
@@ -105,7 +205,7 @@ QVector<float> smoothed(const QVector<float>& plane, const QSize& size)
 
 } // namespace
 
-InstantEdges edgesOf(const QImage& drawing)
+InstantEdges edgesOf(const QImage& drawing, const QVector<InnerEdge>& inner)
 {
     InstantEdges edges;
     if (drawing.isNull())
@@ -127,13 +227,25 @@ InstantEdges edgesOf(const QImage& drawing)
         }
     }
     QVector<float> depth = depthWithin(figure, edges.size);
-    if (const float line = outlineWidth(figure, depth, dark, edges.size); line > 0)
+    const float line = outlineWidth(figure, depth, dark, edges.size);
+    if (line > 0)
     {
         QVector<char> inside = figure;
         for (int at = 0; at < inside.size(); ++at)
             if (dark[at] != 0 && depth[at] <= line + 1)
                 inside[at] = 0;
         depth = depthWithin(inside, edges.size);
+    }
+    if (!inner.isEmpty())
+    {
+        InnerEdges nearest(edges.size);
+        for (InnerEdge edge : inner)
+        {
+            for (QPointF& point : edge.line)
+                point /= edges.step;
+            nearest.add(edge);
+        }
+        nearest.shorten(depth, line);
     }
     for (float& distance : depth)
         distance = std::max(0.0F, distance - 0.5F) * float(edges.step);

@@ -1,7 +1,8 @@
-// How far what is drawn is from the edge of its figure, told from the drawing alone.
+// How far what is drawn is from the edge of its figure, or of the part that it is on.
 #pragma once
 
 #include <QImage>
+#include <QPolygonF>
 #include <QSize>
 #include <QVector>
 
@@ -19,9 +20,16 @@ struct InstantEdges
     int at(int x, int y) const { return y * size.width() + x; }
 };
 
-/// The distance to the silhouette of a drawing (any format with alpha), from the inner side of a dark
-/// outline. Edges between parts of the figure are not known.
-InstantEdges edgesOf(const QImage& drawing);
+/// A line along which one part of the figure is in front of another.
+struct InnerEdge
+{
+    QPolygonF line;          ///< image pixels
+    bool isFrontLeft = true; ///< as seen by a walker from the first point to the last
+};
+
+/// The distance to the silhouette of a drawing (any format with alpha), or to a line beside the part in
+/// front, from the inner side of a dark outline. A drawing alone does not tell its inner edges.
+InstantEdges edgesOf(const QImage& drawing, const QVector<InnerEdge>& inner = {});
 
 /// Largest channel of a colour that is as dark as a line, of 255.
 constexpr int DarkestPaint = 80;

@@ -29,6 +29,26 @@ QPointF strongestLight(const Scene& scene)
     return place;
 }
 
+/// A function of 0 to 1, by a table: a picture asks for it a hundred thousand times.
+class Curve
+{
+public:
+    template <typename Function> explicit Curve(Function function)
+    {
+        for (size_t i = 0; i < mValues.size(); ++i)
+            mValues[i] = float(function(double(i) / double(mValues.size() - 1)));
+    }
+    float at(float place) const
+    {
+        const float exact = std::clamp(place, 0.0F, 1.0F) * float(mValues.size() - 1);
+        const size_t before = std::min(size_t(exact), mValues.size() - 2);
+        return mValues[before] + (exact - float(before)) * (mValues[before + 1] - mValues[before]);
+    }
+
+private:
+    std::array<float, 1025> mValues{};
+};
+
 double smoothStep(double share)
 {
     return share * share * (3 - 2 * share);
@@ -103,12 +123,15 @@ double InstantRim::leftOut(int column, int row) const
 
 void InstantRim::add(float share, const uchar* drawn, std::array<float, 3>& shown) const
 {
+    static const Curve linear([](double value) { return toLinear(value); });
+    // By the square root, beside which the curve is nearly straight.
+    static const Curve encoded([](double root) { return fromLinear(root * root); });
     for (size_t i = 0; i < shown.size(); ++i)
     {
-        const double fill = toLinear(double(shown[i]) / 255);
-        const double aim = mAims[drawn[i]][i];
+        const float fill = linear.at(shown[i] / 255);
+        const auto aim = float(mAims[drawn[i]][i]);
         if (aim > fill)
-            shown[i] = float(255 * fromLinear(fill + double(share) * (aim - fill)));
+            shown[i] = std::max(shown[i], 255 * encoded.at(std::sqrt(fill + share * (aim - fill))));
     }
 }
 

@@ -108,6 +108,32 @@ private Q_SLOTS:
         QCOMPARE(worker.mNormals, (QVector<int>{1, 1}));
     }
 
+    void aDrawingThatWasLitHasRimsOnItsPartsInFront()
+    {
+        FakeWorker worker;
+        SceneDocument document;
+        Scene scene = sceneWithLight(20, 150, 100);
+        scene.rim = Rim{20, Qt::white, 1, 0, {}};
+        document.reset(scene);
+        FrameFeed feed(*mHost, worker, document);
+        UnlitLayers unlit(*mHost, feed, document);
+        StandIns standIns(*mHost, worker, feed, unlit, document);
+        feed.setEnabled(true);
+        const auto lightness = [&standIns](int x)
+        {
+            const QImage picture = standIns.current()->picture.picture;
+            return picture.pixelColor(x * picture.width() / 400, picture.height() / 2).lightness();
+        };
+        const int before = lightness(190);
+        const int behind = lightness(210);
+        Q_EMIT worker.imageArrived(worker.pictureOf(1));
+        QCOMPARE(worker.mOverlaps, QVector<int>{1});
+        const Overlap overlap{{{200, 250}, {200, 50}}, FrontSide::Left, 20, false};
+        Q_EMIT worker.overlapsArrived(1, {overlap});
+        QVERIFY(lightness(190) > before + 20);
+        QCOMPARE(lightness(210), behind);
+    }
+
     void anotherProjectIsNotShownInTheLightOfTheLast()
     {
         openLit();

@@ -282,6 +282,35 @@ private Q_SLOTS:
         QVERIFY2(qRed(picture.pixel(310, 150)) > qRed(picture.pixel(290, 150)) + 60, "the paint beside it");
     }
 
+    void rimFollowsThePartInFront()
+    {
+        // The left half of the disc is in front of the right one.
+        const InnerEdge edge{QPolygonF(QVector<QPointF>{{200, 60}, {200, 150}, {200, 240}}), false};
+        for (const InnerEdge& same :
+             {edge, InnerEdge{QPolygonF(QVector<QPointF>{{200, 240}, {200, 60}}), true}})
+        {
+            const InstantRim rim(rimmed(12, 0), edgesOf(disc(), {same}), {});
+            QVERIFY2(rim.shareAt(195, 150) > 0.95F, "beside the line");
+            QVERIFY2(rim.shareAt(180, 150) < 0.05F, "further inside");
+            QVERIFY2(rim.shareAt(206, 150) < 0.05F, "behind it");
+            QVERIFY2(rim.shareAt(195, 255) < 0.05F, "past its end");
+        }
+        const InstantRim without(rimmed(12, 0), edgesOf(disc()), {});
+        QVERIFY(without.shareAt(195, 150) == 0);
+    }
+
+    void rimGoesRoundACornerOfThePartInFront()
+    {
+        const QPolygonF corner(QVector<QPointF>{{120, 150}, {200, 150}, {200, 230}});
+        const InstantRim inside(rimmed(12, 0), edgesOf(disc(), {{corner, false}}), {});
+        const InstantRim outside(rimmed(12, 0), edgesOf(disc(), {{corner, true}}), {});
+        QVERIFY(inside.shareAt(193, 157) > 0.9F);
+        QVERIFY(inside.shareAt(204, 146) < 0.05F);
+        QVERIFY(outside.shareAt(204, 146) > 0.9F);
+        QVERIFY(outside.shareAt(215, 135) < 0.05F);
+        QVERIFY(outside.shareAt(190, 160) < 0.05F);
+    }
+
     void rimMovesWithTheCamera()
     {
         Scene scene = rimmed(40, 1);
@@ -358,6 +387,7 @@ private Q_SLOTS:
     {
         QTest::addColumn<QSize>("size");
         QTest::newRow("the example") << QSize(640, 720);
+        QTest::newRow("large") << QSize(1000, 1000);
         QTest::newRow("HD") << QSize(1920, 1080);
     }
 
@@ -365,11 +395,21 @@ private Q_SLOTS:
     {
         QFETCH(QSize, size);
         const QImage large = disc().scaled(size);
-        const Scene scene = defaultScene(size);
+        Scene scene = defaultScene(size);
+        scene.rim = Rim{12, Qt::white, 1, 0.5, {}};
+        QVector<InnerEdge> inner;
+        for (int i = 0; i < 20; ++i)
+        {
+            InnerEdge edge;
+            for (int j = 0; j < 32; ++j)
+                edge.line.append(QPointF(size.width() * (0.3 + 0.01 * j), size.height() * (0.3 + 0.02 * i)));
+            inner.append(edge);
+        }
         QBENCHMARK
         {
             const InstantShape shape = inflateFigure(large);
-            shadedDrawing(large, shape, lightOn(shape, scene, {}), {}, scene);
+            const InstantRim rim(scene, edgesOf(large, inner), {});
+            shadedDrawing(large, shape, lightOn(shape, scene, {}), rim, scene);
         }
     }
 };
