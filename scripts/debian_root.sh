@@ -1,10 +1,10 @@
 #!/bin/sh
-# Run a command in another Debian, where it finds the project: debian_root.sh trixie|sid [COMMAND...]
+# Run a command in another Debian, where it finds the project: debian_root.sh bookworm|trixie|sid [COMMAND...]
 #
 # The root is made when it is missing (debootstrap, as root), and kept in DEBIAN_ROOTS, a folder under
-# ~/.cache unless set. In it, the project is /lampblack, with a build/ of its own and a .venv that both
-# roots share: both have Python 3.13. Packages come from DEBIAN_MIRROR; unless set, from where this
-# machine's apt takes Debian's.
+# ~/.cache unless set. In it, the project is /lampblack, with a build/ of its own and a .venv that roots of
+# the same Python share. Packages come from DEBIAN_MIRROR; unless set, from where this machine's apt takes
+# Debian's.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -16,10 +16,12 @@ fail() {
 
 suite=${1:-}
 case "$suite" in
-    trixie | sid) shift ;;
-    *) fail "\"$suite\" is not a Debian known here." "debian_root.sh trixie|sid [COMMAND...]" ;;
+    bookworm) python=python3.11 ;;
+    trixie | sid) python=python3.13 ;;
+    *) fail "\"$suite\" is not a Debian known here." "debian_root.sh bookworm|trixie|sid [COMMAND...]" ;;
 esac
-[ "$(id -u)" = 0 ] || fail "Only root can make and enter a Debian root." "As root: make test-$suite"
+shift
+[ "$(id -u)" = 0 ] || fail "Only root can make and enter a Debian root." "Run this as root."
 command -v debootstrap >/dev/null || fail "debootstrap is missing." "apt-get install debootstrap"
 
 # All that is mounted below is seen by this script and its children only, and goes with them.
@@ -30,6 +32,7 @@ unset IN_DEBIAN_ROOT
 
 ROOTS=${DEBIAN_ROOTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lampblack-debian}
 root=$ROOTS/$suite
+venv=$ROOTS/venv-$python
 if [ -z "${DEBIAN_MIRROR:-}" ]; then
     DEBIAN_MIRROR=$(apt-get indextargets --format '$(LABEL) $(REPO_URI)' 'Created-By: Packages' 2>/dev/null |
         sed -n 's/^Debian //p' | head -n 1)
@@ -50,7 +53,7 @@ mount_all() {
     [ ! -e "$root/etc/resolv.conf" ] || mount --bind /etc/resolv.conf "$root/etc/resolv.conf"
     [ ! -d /etc/ssl/certs ] || mount --bind -o ro /etc/ssl/certs "$root/etc/ssl/certs"
     mount --bind . "$root/lampblack"
-    mount --bind "$ROOTS/venv" "$root/lampblack/.venv"
+    mount --bind "$venv" "$root/lampblack/.venv"
     mount --bind "$root/var/lib/lampblack-build" "$root/lampblack/build"
 }
 
@@ -59,17 +62,19 @@ exec 9>"$ROOTS/$suite.lock"
 flock 9
 if [ ! -e "$root.complete" ]; then
     rm -rf --one-file-system "$root"
-    debootstrap --variant=minbase --include=ca-certificates,make,python3.13,python3.13-venv \
+    debootstrap --variant=minbase --include=ca-certificates,make,$python,$python-venv \
         "$suite" "$root" "$DEBIAN_MIRROR"
     # A mirror may lag behind, and the Release file of sid is valid for a week only.
     echo 'Acquire::Check-Valid-Until "false";' >"$root/etc/apt/apt.conf.d/80lampblack"
-    mkdir -p "$root/lampblack" "$root/var/lib/lampblack-build" "$root/etc/ssl/certs" "$ROOTS/venv"
+    # The root can be made again: its packages need not wait for the disk.
+    echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/lampblack"
+    mkdir -p "$root/lampblack" "$root/var/lib/lampblack-build" "$root/etc/ssl/certs" "$venv"
     touch "$root/etc/resolv.conf"
     mount_all
     in_root apt-get update
     touch "$root.complete"
 else
-    mkdir -p "$ROOTS/venv"
+    mkdir -p "$venv"
     mount_all
 fi
 flock --unlock 9
