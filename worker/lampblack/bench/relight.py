@@ -67,13 +67,15 @@ def bench_relight(picture: Picture, scene: Scene) -> Figures:
     plain = replace(scene, lights=scene.lights[:1], floor=None)
     floor = replace(plain, floor=scene.floor or Floor(0.95 * picture.shape[0]))
     pair = replace(plain, lights=(scene.lights * 2)[:2])
+    eight = replace(plain, lights=(scene.lights * 8)[:8])
     figures: Figures = {"load_average": os.getloadavg()[0]}
     with _fresh_worker() as (worker, client, ready):
         bench = _Bench(client, picture, plain)
         figures["s_start_to_ready"] = ready
         figures |= _new_drawing(bench)
         figures |= _idle(bench, worker.process.pid)
-        for name, staged in (("one_light", plain), ("floor", floor), ("two_lights", pair)):
+        dragged = {"one_light": plain, "floor": floor, "two_lights": pair, "eight_lights": eight}
+        for name, staged in dragged.items():
             bench.show(staged)
             figures |= {f"{name}_{k}": v for k, v in _drag(bench, staged).items()}
         bench.show(plain)

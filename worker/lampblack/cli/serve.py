@@ -10,6 +10,7 @@ import typer
 
 from ..choices import DeviceChoice
 from ..errors import LampblackError
+from .console import EXIT_FAILED
 
 
 def serve(
@@ -72,14 +73,18 @@ def serve(
     os.nice(5)
     from ..render.client import RenderChild
 
-    # The renderer loads while this process loads everything else.
-    with RenderChild(device=device) as renderer:
-        from ..service.serve import Listening, serve_forever
+    status = 0
+    try:
+        # The renderer loads while this process loads everything else.
+        with RenderChild(device=device) as renderer:
+            from ..service.serve import Listening, serve_forever
 
-        where: Path | Listening | None = connection
-        if listen is not None and key is not None and admit is not None:
-            where = Listening(listen, key, admit)
-        assert where is not None
-        serve_forever(where, renderer, parent_pid, device)
-    # The drawing program has ended. An interpreter would wait for what its threads compute.
-    os._exit(0)
+            where: Path | Listening | None = connection
+            if listen is not None and key is not None and admit is not None:
+                where = Listening(listen, key, admit)
+            assert where is not None
+            serve_forever(where, renderer, parent_pid, device)
+    except SystemExit as told:  # by a signal
+        status = told.code if isinstance(told.code, int) else EXIT_FAILED
+    # An interpreter would wait for what its threads compute, or be ended by what they still load.
+    os._exit(status)
