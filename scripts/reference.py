@@ -79,12 +79,23 @@ def _commands(group: Any, context: Any) -> Iterator[tuple[Any, Any]]:
 def scene() -> Iterator[str]:
     """Every object of a scene file with its fields, in lines of Markdown."""
     yield SCENE
-    for name, definition in scene_schema()["$defs"].items():
+    definitions = scene_schema()["$defs"]
+    for name, definition in definitions.items():
         for field in definition["properties"].values():
             field.setdefault("default", {})  # an object with the defaults of its own fields
+            field.setdefault("description", _gist(field, definitions))
         yield f"## {name}\n"
         yield from map(_row, table({"required": [], **definition}))
         yield ""
+
+
+def _gist(field: dict[str, Any], definitions: dict[str, Any]) -> str:
+    """The first sentence about the object that a field holds; empty if it holds none."""
+    for kind in (field, *field.get("anyOf", [])):
+        if "$ref" in kind:
+            about = " ".join(definitions[kind["$ref"].split("/")[-1]]["description"].split())
+            return re.split(r"[.:;] ", f"{about} ")[0].replace("``", "`")
+    return ""
 
 
 def _row(line: str) -> str:

@@ -69,8 +69,8 @@ enum class LookChoice
 /// Size of the drawings this scene was made for, in pixels.
 struct Canvas
 {
-    int width = 1;  ///< 1 to 65536
-    int height = 1; ///< 1 to 65536
+    int width = 1;  ///< pixels, 1 to 65536
+    int height = 1; ///< pixels, 1 to 65536
     QJsonObject extra = {};
 };
 
@@ -94,7 +94,7 @@ struct LightKey
     double z = 0;                     ///< canvas pixels, -100000 to 100000
     double size = 200;                ///< diameter, canvas pixels, 1 to 100000
     QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
-    double power = 1;                 ///< 0 to 100
+    double power = 1;                 ///< strength: 1 shows white as it is drawn, see above, 0 to 100
     QJsonObject extra = {};
 };
 
@@ -127,16 +127,16 @@ struct AreaLight
     double z = 0;                     ///< canvas pixels, -100000 to 100000
     double size = 200;                ///< diameter, canvas pixels, 1 to 100000
     QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
-    double power = 1;                 ///< 0 to 100
-    LightKind kind = LightKind::Lamp;
-    bool castsShadow = true;
-    QString name = {}; ///< for people
-    bool on = true;
-    bool solo = false;
-    QStringList colours = {};
-    QStringList layers = {};
-    std::optional<Pin> pin = {};
-    QVector<LightKey> keys = {}; ///< 128 at most
+    double power = 1;                 ///< strength: 1 shows white as it is drawn, see above, 0 to 100
+    LightKind kind = LightKind::Lamp; ///< a disk at its place, or a sun whose direction counts
+    bool castsShadow = true;          ///< the character throws a shadow on itself and on the floor
+    QString name = {};                ///< for people
+    bool on = true;                   ///< it shines
+    bool solo = false;                ///< only lights with this shine
+    QStringList colours = {};         ///< the only flat colours that it lights; none: all
+    QStringList layers = {};          ///< the only layers that it lights; none: all
+    std::optional<Pin> pin = {};      ///< what of the drawing it follows
+    QVector<LightKey> keys = {};      ///< its values at some frames, 128 at most
     QJsonObject extra = {};
 };
 
@@ -144,7 +144,7 @@ struct AreaLight
 struct Ambient
 {
     QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
-    double strength = 0.3;            ///< 0 to 100
+    double strength = 0.3;            ///< 1 alone shows the drawn colours, 0 to 100
     QJsonObject extra = {};
 };
 
@@ -154,7 +154,7 @@ struct Ambient
 /// With `power` 1 opaque white shines ten times as bright as white paper that is fully lit.
 struct PaintedLight
 {
-    double power = 1;     ///< 0 to 100
+    double power = 1;     ///< strength of the paint, 0 to 100
     double height = 0.06; ///< above the nearest point, half canvas sides, 0.01 to 4
     QJsonObject extra = {};
 };
@@ -169,12 +169,12 @@ struct PaintedLight
 /// Only the ratio of several emissions shapes the traced light.
 struct Material
 {
-    bool diffuse = true;
-    bool glossy = false;
-    double gloss = 0.5;     ///< 0 to 1
-    double roughness = 0.3; ///< 0.02 to 1
-    LookChoice look = LookChoice::Scene;
-    double emission = 0; ///< 0 to 100
+    bool diffuse = true;                 ///< takes light from all sides, like paper
+    bool glossy = false;                 ///< has highlights, like lacquer
+    double gloss = 0.5;                  ///< amount of the highlights, 0 to 1
+    double roughness = 0.3;              ///< width of the highlights: 0 is a mirror, 0.02 to 1
+    LookChoice look = LookChoice::Scene; ///< as the scene says, always smooth, or always in tones
+    double emission = 0;                 ///< light that it gives, 0 to 100
     QJsonObject extra = {};
 };
 
@@ -195,7 +195,7 @@ struct Floor
 {
     double y = 0;                ///< canvas pixels, -100000 to 100000
     double pitch = 25;           ///< degrees, 5 to 85
-    QVector<FloorKey> keys = {}; ///< 128 at most
+    QVector<FloorKey> keys = {}; ///< its values at some frames, 128 at most
     QJsonObject extra = {};
 };
 
@@ -212,16 +212,16 @@ struct Floor
 /// tinted by the lit fill. `glow` is the bloom around emissive colours.
 struct Look
 {
-    QVector<double> tones = {};            ///< 0 to 1
-    double softness = 0.05;                ///< 0 to 1
+    QVector<double> tones = {};            ///< shares of the full light; none: smooth, 0 to 1
+    double softness = 0.05;                ///< width of the blend between two tones, 0 to 1
     QColor shadeColour = QColor(0x4a4468); ///< sRGB, lower case #rrggbb
-    double shadeStrength = 0;              ///< 0 to 1
+    double shadeStrength = 0;              ///< how far shade has its colour, 0 to 1
     QColor castColour = QColor(0x332e52);  ///< sRGB, lower case #rrggbb
-    double castStrength = 0;               ///< 0 to 1
-    double highlight = 0.5;                ///< 0 to 1
-    double contact = 0;                    ///< 0 to 1
-    double inkLight = 0;                   ///< 0 to 1
-    double glow = 0;                       ///< 0 to 1
+    double castStrength = 0;               ///< how far cast shadows have their colour, 0 to 1
+    double highlight = 0.5;                ///< from which light on gloss is seen, 0 to 1
+    double contact = 0;                    ///< darkness where surfaces touch, 0 to 1
+    double inkLight = 0;                   ///< how far the line takes light, 0 to 1
+    double glow = 0;                       ///< bloom around colours that shine, 0 to 1
     QJsonObject extra = {};
 };
 
@@ -234,8 +234,8 @@ struct Rim
 {
     double width = 8;                 ///< canvas pixels, 0.25 to 1000
     QColor colour = QColor(0xffffff); ///< sRGB, lower case #rrggbb
-    double strength = 0.8;            ///< 0 to 1
-    double away = 0.5;                ///< 0 to 1
+    double strength = 0.8;            ///< brightness of the band, 0 to 1
+    double away = 0.5;                ///< how far the band is left out towards the light, 0 to 1
     QJsonObject extra = {};
 };
 
@@ -254,18 +254,18 @@ struct DepthPoint
 /// height of the step; 0 leaves it to the program.
 struct DepthHint
 {
-    int frame = 0;                   ///< frame of the animation, 0 to 999999
-    QVector<DepthPoint> points = {}; ///< 16 at most
-    FrontSide front = FrontSide::Left;
-    double amount = 0; ///< share of the longer side of the character's box, 0 to 1
+    int frame = 0;                     ///< frame of the animation, 0 to 999999
+    QVector<DepthPoint> points = {};   ///< of the line, 16 at most
+    FrontSide front = FrontSide::Left; ///< the side in front; joined: neither is
+    double amount = 0;                 ///< share of the longer side of the character's box, 0 to 1
     QJsonObject extra = {};
 };
 
-/// What surface a layer of the drawing gets: see `BodyChoice`.
+/// What surface a layer of the drawing gets.
 struct LayerBody
 {
-    QString layer = {}; ///< the layer's name
-    BodyChoice body = BodyChoice::Auto;
+    QString layer = {};                 ///< the layer's name
+    BodyChoice body = BodyChoice::Auto; ///< found; its own; part of the body below; flat on that
     QJsonObject extra = {};
 };
 
@@ -278,9 +278,9 @@ struct LayerBody
 struct DepthStroke
 {
     int frame = 0;                   ///< frame of the animation, 0 to 999999
-    QVector<DepthPoint> points = {}; ///< 24 at most
-    Brush brush = Brush::Bump;
-    double radius = 40;  ///< canvas pixels, 1 to 100000
+    QVector<DepthPoint> points = {}; ///< of the stroke, 24 at most
+    Brush brush = Brush::Bump;       ///< what the stroke does
+    double radius = 40;              ///< canvas pixels, 1 to 100000
     double amount = 0.4; ///< height of a bump or a dent as a share of its radius; of a turn, the share of a
                          ///< right angle by which the surface then leans, 0 to 1
     QJsonObject extra = {};
@@ -293,7 +293,7 @@ struct DepthStroke
 struct DepthColour
 {
     QColor colour = {}; ///< sRGB, lower case #rrggbb
-    double volume = 1;  ///< 0 to 4
+    double volume = 1;  ///< 0 is flat, above 1 is rounder, 0 to 4
     double nearer = 0;  ///< share of the longer side of the character's box, -1 to 1
     QJsonObject extra = {};
 };
@@ -301,10 +301,10 @@ struct DepthColour
 /// What the artist says of the depth of drawings.
 struct Depth
 {
-    QVector<DepthHint> hints = {};     ///< 128 at most
-    QVector<LayerBody> layers = {};    ///< 64 at most
-    QVector<DepthStroke> strokes = {}; ///< 128 at most
-    QVector<DepthColour> colours = {}; ///< 256 at most
+    QVector<DepthHint> hints = {};     ///< what is in front, 128 at most
+    QVector<LayerBody> layers = {};    ///< surfaces of layers, 64 at most
+    QVector<DepthStroke> strokes = {}; ///< of the brush, 128 at most
+    QVector<DepthColour> colours = {}; ///< volumes of colours, 256 at most
     QJsonObject extra = {};
 };
 
@@ -313,18 +313,18 @@ struct Depth
 struct Scene
 {
     Canvas canvas = {};
-    QVector<AreaLight> lights = {}; ///< 8 at most
+    QVector<AreaLight> lights = {}; ///< its lamps and suns, 8 at most
     Ambient ambient = {};
     PaintedLight paintedLight = {};
-    QMap<QString, Material> materials = {};
+    QMap<QString, Material> materials = {}; ///< a Material for each flat colour, by #rrggbb
     Material defaultMaterial = {};
     std::optional<Floor> floor = {};
     Look look = {};
     std::optional<Rim> rim = {};
-    double reliefScale = 1; ///< 0.01 to 10
+    double reliefScale = 1; ///< volume of the whole character: 0.5 is flatter, 0.01 to 10
     Depth depth = {};
-    Quality quality = Quality::Low;
-    int version = 1; ///< 1 to 1
+    Quality quality = Quality::Low; ///< noise and detail of rendered frames
+    int version = 1;                ///< of this format, 1 to 1
     QJsonObject extra = {};
 };
 

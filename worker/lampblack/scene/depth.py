@@ -33,8 +33,10 @@ class DepthHint:
     """
 
     frame: KeyFrame
-    points: Annotated[tuple[DepthPoint, ...], Meta(max_length=MAX_HINT_POINTS)] = ()
-    front: FrontSide = "left"
+    points: Annotated[
+        tuple[DepthPoint, ...], Meta(max_length=MAX_HINT_POINTS, description="of the line")
+    ] = ()
+    front: Annotated[FrontSide, Meta(description="the side in front; joined: neither is")] = "left"
     amount: Annotated[
         float, Meta(ge=0, le=1, description="share of the longer side of the character's box")
     ] = 0.0
@@ -61,8 +63,10 @@ class DepthStroke:
     """
 
     frame: KeyFrame
-    points: Annotated[tuple[DepthPoint, ...], Meta(max_length=MAX_STROKE_POINTS)] = ()
-    brush: Brush = "bump"
+    points: Annotated[
+        tuple[DepthPoint, ...], Meta(max_length=MAX_STROKE_POINTS, description="of the stroke")
+    ] = ()
+    brush: Annotated[Brush, Meta(description="what the stroke does")] = "bump"
     radius: Annotated[float, Meta(ge=1, le=1e5, description="canvas pixels")] = 40.0
     amount: Annotated[
         float,
@@ -91,7 +95,7 @@ class DepthColour:
     """
 
     colour: Colour
-    volume: Annotated[float, Meta(ge=0, le=4)] = 1.0
+    volume: Annotated[float, Meta(ge=0, le=4, description="0 is flat, above 1 is rounder")] = 1.0
     nearer: Annotated[
         float, Meta(ge=-1, le=1, description="share of the longer side of the character's box")
     ] = 0.0
@@ -105,10 +109,13 @@ Hint = Drawn | DepthColour
 
 @dataclass(frozen=True)
 class LayerBody:
-    """What surface a layer of the drawing gets: see ``BodyChoice``."""
+    """What surface a layer of the drawing gets."""
 
     layer: Annotated[str, Meta(max_length=200, description="the layer's name")]
-    body: BodyChoice = "auto"
+    body: Annotated[
+        BodyChoice,
+        Meta(description="found; its own; part of the body below; flat on that"),
+    ] = "auto"
     extra: Extra = field(default_factory=dict)
 
 
@@ -116,10 +123,18 @@ class LayerBody:
 class Depth:
     """What the artist says of the depth of drawings."""
 
-    hints: Annotated[tuple[DepthHint, ...], Meta(max_length=MAX_HINTS)] = ()
-    layers: Annotated[tuple[LayerBody, ...], Meta(max_length=64)] = ()
-    strokes: Annotated[tuple[DepthStroke, ...], Meta(max_length=MAX_STROKES)] = ()
-    colours: Annotated[tuple[DepthColour, ...], Meta(max_length=256)] = ()
+    hints: Annotated[
+        tuple[DepthHint, ...], Meta(max_length=MAX_HINTS, description="what is in front")
+    ] = ()
+    layers: Annotated[
+        tuple[LayerBody, ...], Meta(max_length=64, description="surfaces of layers")
+    ] = ()
+    strokes: Annotated[
+        tuple[DepthStroke, ...], Meta(max_length=MAX_STROKES, description="of the brush")
+    ] = ()
+    colours: Annotated[
+        tuple[DepthColour, ...], Meta(max_length=256, description="volumes of colours")
+    ] = ()
     extra: Extra = field(default_factory=dict)
 
     @property

@@ -32,5 +32,9 @@ class Floor:
 
     y: Pixels
     pitch: Pitch = 25.0
-    keys: Annotated[tuple[FloorKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
+    keys: Annotated[
+        tuple[FloorKey, ...],
+        Meta(max_length=MAX_KEYS, description="its values at some frames"),
+        Affects.NOTHING,
+    ] = ()
     extra: Extra = field(default_factory=dict)

@@ -10,7 +10,18 @@ from msgspec import Meta
 
 from ..affects import Affects, marks_of, traced_part
 from ..choices import LightKind
-from .values import MAX_KEYS, Colour, Diameter, Extra, KeyFrame, LayerTitle, Pixels, Strength, Title
+from .values import (
+    MAX_KEYS,
+    Colour,
+    Diameter,
+    Extra,
+    KeyFrame,
+    LayerTitle,
+    Pixels,
+    Power,
+    Strength,
+    Title,
+)
 
 
 @dataclass(frozen=True)
@@ -23,7 +34,7 @@ class LightKey:
     z: Pixels
     size: Diameter = 200.0
     colour: Colour = "#ffffff"
-    power: Strength = 1.0
+    power: Power = 1.0
     extra: Extra = field(default_factory=dict)
 
 
@@ -73,16 +84,36 @@ class AreaLight:
     z: Pixels
     size: Diameter = 200.0
     colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
-    power: Annotated[Strength, Affects.COMPOSITE] = 1.0
-    kind: LightKind = "lamp"
-    casts_shadow: bool = True
+    power: Annotated[Power, Affects.COMPOSITE] = 1.0
+    kind: Annotated[
+        LightKind, Meta(description="a disk at its place, or a sun whose direction counts")
+    ] = "lamp"
+    casts_shadow: Annotated[
+        bool, Meta(description="the character throws a shadow on itself and on the floor")
+    ] = True
     name: Annotated[Title, Affects.NOTHING] = ""
-    on: Annotated[bool, Affects.COMPOSITE] = True
-    solo: Annotated[bool, Affects.COMPOSITE] = False
-    colours: Annotated[tuple[Colour, ...], Meta(max_length=64), Affects.COMPOSITE] = ()
-    layers: Annotated[tuple[LayerTitle, ...], Meta(max_length=16), Affects.COMPOSITE] = ()
-    pin: Annotated[Pin | None, Affects.NOTHING] = None
-    keys: Annotated[tuple[LightKey, ...], Meta(max_length=MAX_KEYS), Affects.NOTHING] = ()
+    on: Annotated[bool, Meta(description="it shines"), Affects.COMPOSITE] = True
+    solo: Annotated[bool, Meta(description="only lights with this shine"), Affects.COMPOSITE] = (
+        False
+    )
+    colours: Annotated[
+        tuple[Colour, ...],
+        Meta(max_length=64, description="the only flat colours that it lights; none: all"),
+        Affects.COMPOSITE,
+    ] = ()
+    layers: Annotated[
+        tuple[LayerTitle, ...],
+        Meta(max_length=16, description="the only layers that it lights; none: all"),
+        Affects.COMPOSITE,
+    ] = ()
+    pin: Annotated[
+        Pin | None, Meta(description="what of the drawing it follows"), Affects.NOTHING
+    ] = None
+    keys: Annotated[
+        tuple[LightKey, ...],
+        Meta(max_length=MAX_KEYS, description="its values at some frames"),
+        Affects.NOTHING,
+    ] = ()
     extra: Extra = field(default_factory=dict)
 
     @property
@@ -116,7 +147,7 @@ class PaintedLight:
     With ``power`` 1 opaque white shines ten times as bright as white paper that is fully lit.
     """
 
-    power: Annotated[Strength, Affects.COMPOSITE] = 1.0
+    power: Annotated[Strength, Meta(description="strength of the paint"), Affects.COMPOSITE] = 1.0
     height: Annotated[
         float, Meta(ge=0.01, le=4, description="above the nearest point, half canvas sides")
     ] = 0.06
@@ -128,5 +159,7 @@ class Ambient:
     """Light from everywhere; strength 1 alone shows an open surface in its drawn colour."""
 
     colour: Annotated[Colour, Affects.COMPOSITE] = "#ffffff"
-    strength: Annotated[Strength, Affects.COMPOSITE] = 0.3
+    strength: Annotated[
+        Strength, Meta(description="1 alone shows the drawn colours"), Affects.COMPOSITE
+    ] = 0.3
     extra: Extra = field(default_factory=dict)

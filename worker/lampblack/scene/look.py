@@ -28,16 +28,19 @@ class Look:
     in shade, and tinted by the lit fill. ``glow`` is the bloom around emissive colours.
     """
 
-    tones: Annotated[tuple[Unit, ...], Meta(max_length=MAX_TONES)] = ()
-    softness: Unit = 0.05
+    tones: Annotated[
+        tuple[Unit, ...],
+        Meta(max_length=MAX_TONES, description="shares of the full light; none: smooth"),
+    ] = ()
+    softness: Annotated[Unit, Meta(description="width of the blend between two tones")] = 0.05
     shade_colour: Colour = "#4a4468"
-    shade_strength: Unit = 0.0
+    shade_strength: Annotated[Unit, Meta(description="how far shade has its colour")] = 0.0
     cast_colour: Colour = "#332e52"
-    cast_strength: Unit = 0.0
-    highlight: Unit = 0.5
-    contact: Unit = 0.0
-    ink_light: Unit = 0.0
-    glow: Unit = 0.0
+    cast_strength: Annotated[Unit, Meta(description="how far cast shadows have their colour")] = 0.0
+    highlight: Annotated[Unit, Meta(description="from which light on gloss is seen")] = 0.5
+    contact: Annotated[Unit, Meta(description="darkness where surfaces touch")] = 0.0
+    ink_light: Annotated[Unit, Meta(description="how far the line takes light")] = 0.0
+    glow: Annotated[Unit, Meta(description="bloom around colours that shine")] = 0.0
     extra: Extra = field(default_factory=dict)
 
 
@@ -52,6 +55,6 @@ class Rim:
 
     width: Annotated[float, Meta(ge=0.25, le=1000, description="canvas pixels")] = 8.0
     colour: Colour = "#ffffff"
-    strength: Unit = 0.8
-    away: Unit = 0.5
+    strength: Annotated[Unit, Meta(description="brightness of the band")] = 0.8
+    away: Annotated[Unit, Meta(description="how far the band is left out towards the light")] = 0.5
     extra: Extra = field(default_factory=dict)

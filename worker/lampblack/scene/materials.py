@@ -24,10 +24,18 @@ class Material:
     window at night. Only the ratio of several emissions shapes the traced light.
     """
 
-    diffuse: Annotated[bool, Affects.COMPOSITE] = True
-    glossy: bool = False
-    gloss: Annotated[Unit, Affects.GLOSS] = 0.5
-    roughness: Annotated[float, Meta(ge=0.02, le=1)] = 0.3
-    look: Annotated[LookChoice, Affects.COMPOSITE] = "scene"
-    emission: Annotated[Strength, Affects.COMPOSITE] = 0.0
+    diffuse: Annotated[
+        bool, Meta(description="takes light from all sides, like paper"), Affects.COMPOSITE
+    ] = True
+    glossy: Annotated[bool, Meta(description="has highlights, like lacquer")] = False
+    gloss: Annotated[Unit, Meta(description="amount of the highlights"), Affects.GLOSS] = 0.5
+    roughness: Annotated[
+        float, Meta(ge=0.02, le=1, description="width of the highlights: 0 is a mirror")
+    ] = 0.3
+    look: Annotated[
+        LookChoice,
+        Meta(description="as the scene says, always smooth, or always in tones"),
+        Affects.COMPOSITE,
+    ] = "scene"
+    emission: Annotated[Strength, Meta(description="light that it gives"), Affects.COMPOSITE] = 0.0
     extra: Extra = field(default_factory=dict)

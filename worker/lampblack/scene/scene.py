@@ -25,8 +25,8 @@ MAX_LIGHTS = 8
 class Canvas:
     """Size of the drawings this scene was made for, in pixels."""
 
-    width: Annotated[int, Meta(ge=1, le=65536)]
-    height: Annotated[int, Meta(ge=1, le=65536)]
+    width: Annotated[int, Meta(ge=1, le=65536, description="pixels")]
+    height: Annotated[int, Meta(ge=1, le=65536, description="pixels")]
     extra: Extra = field(default_factory=dict)
 
     @property
@@ -41,20 +41,29 @@ class Scene:
     reordering of the palette; colours without one wear ``default_material``."""
 
     canvas: Canvas
-    lights: Annotated[tuple[AreaLight, ...], Meta(max_length=MAX_LIGHTS)] = ()
+    lights: Annotated[
+        tuple[AreaLight, ...], Meta(max_length=MAX_LIGHTS, description="its lamps and suns")
+    ] = ()
     ambient: Ambient = field(default_factory=Ambient)
     painted_light: PaintedLight = field(default_factory=PaintedLight)
-    materials: Annotated[dict[Colour, Material], Meta(max_length=4096)] = field(
-        default_factory=dict
-    )
+    materials: Annotated[
+        dict[Colour, Material],
+        Meta(max_length=4096, description="a Material for each flat colour, by #rrggbb"),
+    ] = field(default_factory=dict)
     default_material: Material = field(default_factory=Material)
     floor: Floor | None = None
     look: Annotated[Look, Affects.COMPOSITE] = field(default_factory=Look)
     rim: Annotated[Rim | None, Affects.COMPOSITE] = None
-    relief_scale: Annotated[float, Meta(ge=0.01, le=10)] = 1.0
+    relief_scale: Annotated[
+        float, Meta(ge=0.01, le=10, description="volume of the whole character: 0.5 is flatter")
+    ] = 1.0
     depth: Depth = field(default_factory=Depth)
-    quality: Annotated[QualityName, Affects.SAMPLING] = "low"
-    version: Annotated[int, Meta(ge=VERSION, le=VERSION), Affects.NOTHING] = VERSION
+    quality: Annotated[
+        QualityName, Meta(description="noise and detail of rendered frames"), Affects.SAMPLING
+    ] = "low"
+    version: Annotated[
+        int, Meta(ge=VERSION, le=VERSION, description="of this format"), Affects.NOTHING
+    ] = VERSION
     extra: Extra = field(default_factory=dict)
 
     def material(self, colour: str) -> Material:

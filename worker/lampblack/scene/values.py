@@ -19,6 +19,7 @@ Colour = Annotated[
 Pixels = Annotated[float, Meta(ge=-1e5, le=1e5, description="canvas pixels")]
 Unit = Annotated[float, Meta(ge=0, le=1)]
 Strength = Annotated[float, Meta(ge=0, le=100)]
+Power = Annotated[Strength, Meta(description="strength: 1 shows white as it is drawn, see above")]
 Diameter = Annotated[float, Meta(ge=1, le=1e5, description="diameter, canvas pixels")]
 Pitch = Annotated[float, Meta(ge=5, le=85, description="degrees")]
 LayerTitle = Annotated[
