@@ -78,7 +78,7 @@ def for_people() -> Iterator[None]:
     SIGTERM and a closed terminal act like Ctrl-C, so that no incomplete file and no child process
     remain.
     """
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in {signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)}:
         signal.signal(number, _terminate)
     warnings.simplefilter("ignore")
     warnings.simplefilter("always", LampblackWarning)

@@ -70,7 +70,8 @@ def serve(
         )
 
     # The drawing program has priority when both need a processor.
-    os.nice(5)
+    if hasattr(os, "nice"):
+        os.nice(5)
     from ..render.client import RenderChild
 
     status = 0

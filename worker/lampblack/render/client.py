@@ -7,7 +7,6 @@ import contextlib
 import hashlib
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -58,6 +57,8 @@ KEPT_VARIABLES = (
     *("CUDA_VISIBLE_DEVICES", "HIP_VISIBLE_DEVICES", "ROCR_VISIBLE_DEVICES"),
     *("ONEAPI_DEVICE_SELECTOR", "ZE_AFFINITY_MASK"),
 )
+KILLED = -9
+"""Exit status of a process that was ended by SIGKILL."""
 COMMAND = (sys.executable, "-I", "-m", "lampblack.render.child")
 SLOW = (
     "The renderer hardly gets to work: the machine is busy, or short of memory. It is waited for; "
@@ -397,7 +398,7 @@ class RenderChild:
         gave_up = self._give_up_card()
         self._end()
         remedy = CARD_LOST if gave_up else "Try again; the renderer starts anew by itself."
-        if status == -signal.Signals.SIGKILL.value:
+        if status == KILLED:
             remedy += " If the machine ran out of memory, choose a lower quality."
         details = f"exit status {status}; {error}\n{log}".strip()
         return RenderError("The renderer stopped unexpectedly.", remedy, details)

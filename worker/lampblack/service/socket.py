@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import queue
+import socket
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 
 import zmq
 
@@ -16,6 +17,7 @@ HIGH_WATER = 4
 DRAIN = 64
 """Most messages received in one iteration."""
 RETRY_SECONDS = 0.02
+WAKING_BYTES = 4096
 
 Event = Callable[[], None]
 
@@ -52,22 +54,24 @@ class RouterSocket:
         except zmq.ZMQError:
             self._router.close(0)  # the context would wait for it at its end
             raise
-        self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+        # A pair of sockets, because every system has them, and can wait for them.
+        self._wake, self._waker = socket.socketpair()
+        for end in (self._wake, self._waker):
+            end.setblocking(False)
         self._events: queue.SimpleQueue[Event] = queue.SimpleQueue()
         self._outboxes: dict[bytes, Outbox] = {}
 
     def close(self) -> None:
         """Close the socket; unsent messages are lost."""
         self._router.close(0)
-        os.close(self._wake)
+        self._waker.close()
+        self._wake.close()
 
     def post(self, event: Event) -> None:
         """Run ``event`` in the owner's thread; any thread may call this."""
         self._events.put(event)
-        try:
-            os.eventfd_write(self._wake, 1)
-        except OSError:
-            return  # the worker is closing
+        with suppress(OSError):  # it is full, and so wakes the owner; or the worker is closing
+            self._waker.send(b"!")
 
     def wait(self, seconds: float, watched: int | None = None) -> None:
         """Wait for a message, an event, ``watched`` to become readable, or ``seconds``; shorter if
@@ -77,8 +81,9 @@ class RouterSocket:
             poller.register(thing, zmq.POLLIN)
         if any(outbox.first() for outbox in self._outboxes.values()):
             seconds = min(seconds, RETRY_SECONDS)
-        if self._wake in dict(poller.poll(int(max(0.0, seconds) * 1000) + 1)):
-            os.eventfd_read(self._wake)
+        poller.poll(int(max(0.0, seconds) * 1000) + 1)
+        with suppress(BlockingIOError):
+            self._wake.recv(WAKING_BYTES)
 
     def messages(self) -> Iterator[tuple[bytes, list[bytes]]]:
         """Some of the received messages, each with the identity of its sender."""
