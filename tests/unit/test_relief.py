@@ -233,11 +233,13 @@ def test_light_passes_beneath_what_is_in_front(stride: int) -> None:
 
 
 @pytest.mark.parametrize("stride", [1, 2, 4])
-def test_nothing_hidden_shows(stride: int) -> None:
+@pytest.mark.parametrize("coarse", [False, True])
+def test_nothing_hidden_shows(stride: int, coarse: bool) -> None:
     height, mask = band_over_plate()
     rows, columns = np.mgrid[0:120, 0:120].astype(np.float32)
     height += np.where(mask, 12 * np.sin(columns / 19) + 9 * np.cos(rows / 23), 0)
-    relief = build_relief(height, mask, stride=stride)
+    parts = np.zeros(mask.shape, int) if coarse else None
+    relief = build_relief(height, mask, stride=stride, parts=parts)
     assert check_relief(relief) == []
     seen = visible_faces(relief.vertices, relief.faces, (120, 120))
     inside = mask & (seen.face >= 0)
@@ -247,3 +249,38 @@ def test_nothing_hidden_shows(stride: int) -> None:
     away = np.abs(rows[inside] - 59.5)
     clear = np.abs(away - 10) > 2 * stride
     assert np.abs(level - height[inside])[clear].max() < 0.15 * stride
+
+
+@pytest.mark.parametrize("stride", [1, 3])
+def test_a_coarse_mesh_is_the_same_surface_with_fewer_triangles(stride: int) -> None:
+    row, column = np.indices((200, 240))
+    reach = np.hypot((column - 110) / 100, (row - 95) / 90)
+    mask = (reach < 1) & (np.hypot(column - 140, row - 70) > 15)
+    mask[100:104, 200:238] = True
+    height = (90 * np.sqrt(np.maximum(1 - 0.9 * reach**2, 0)) * mask).astype(np.float32)
+    fine = build_relief(height, mask, stride=stride)
+    coarse = build_relief(height, mask, stride=stride, parts=np.zeros(mask.shape, int))
+    assert is_sound(coarse)
+    assert len(coarse.faces) < (0.5 if stride == 1 else 0.8) * len(fine.faces)
+    surfaces = [
+        visible_faces(relief.vertices, relief.faces, mask.shape) for relief in (fine, coarse)
+    ]
+    assert np.array_equal(surfaces[0].face >= 0, surfaces[1].face >= 0)
+    levels = []
+    for relief, seen in zip((fine, coarse), surfaces, strict=True):
+        a, b, c = np.moveaxis(relief.vertices[relief.faces[seen.face], 2], 2, 0)
+        levels.append(a + seen.u * (b - a) + seen.v * (c - a))
+    apart = np.abs(levels[0] - levels[1])[surfaces[0].face >= 0]
+    assert apart.max() < 0.06 * stride
+
+
+def test_a_coarse_triangle_is_of_one_part() -> None:
+    height, mask = np.zeros((96, 96), np.float32), np.ones((96, 96), bool)
+    column = np.indices(mask.shape)[1]
+    relief = build_relief(height, mask, parts=(column > 50).astype(int))
+    assert relief.front is not None
+    front = relief.faces[(relief.faces < relief.front).all(axis=1)]
+    across = np.ptp(relief.vertices[front][..., 0], axis=1)
+    middle = relief.vertices[front][..., 0].mean(axis=1)
+    assert across[np.abs(middle - 51) < 1].max() <= 1
+    assert across.max() > 4

@@ -124,23 +124,44 @@ class PreparedDrawing:
         bodies = tuple(replace(body, drawing=body.drawing.compact()) for body in self.bodies)
         return replace(self, layers=byte_layers_of(self.layers), normals=normals, bodies=bodies)
 
-    def relief(self, *, stride: int = 1, relief_scale: float = 1.0) -> Relief:
+    def relief(
+        self, *, stride: int = 1, relief_scale: float = 1.0, coarse_for: Scene | None = None
+    ) -> Relief:
         """The character's closed mesh in pixels of the drawing, one vertex every ``stride``
-        pixels of the height."""
+        pixels of the height; fewer where light on the materials of ``coarse_for`` needs fewer."""
         if self.bodies:
-            spacing = stride * self.scale
-            return joined_reliefs([body.relief(spacing, relief_scale) for body in self.bodies])
+            reliefs = [
+                body.relief(stride * self.scale, relief_scale, coarse_for) for body in self.bodies
+            ]
+            return joined_reliefs(reliefs)
         scale = np.float32(self.scale)
         relief = build_relief(
-            self.height / scale, self.mask, stride=stride, relief_scale=relief_scale
+            self.height / scale,
+            self.mask,
+            stride=stride,
+            relief_scale=relief_scale,
+            parts=None if coarse_for is None else self._finishes(coarse_for),
         )
         return replace(relief, vertices=relief.vertices * scale)
 
+    def _finishes(self, scene: Scene) -> NDArray[np.intp]:
+        """(h, w) numbers that differ where gloss, roughness or glow of the material do."""
+        table = MaterialTable.of(scene, self.palette.colours)
+        values = np.stack([table.gloss, table.roughness, table.glow], axis=1)
+        _, finish = np.unique(values, axis=0, return_inverse=True)
+        if not finish.any():
+            return np.zeros(self.mask.shape, np.intp)
+        labels = self.layers.labels
+        rows, columns = (
+            (np.arange(size) * whole // size)
+            for size, whole in zip(self.mask.shape, labels.shape, strict=True)
+        )
+        return np.asarray(finish.ravel()[labels[np.ix_(rows, columns)]])
+
     def surface(self, scene: Scene, stride: int) -> Surface:
         """The surface to light: with the relief scale and the materials of ``scene``."""
-        return self.with_materials(
-            self.relief(stride=stride, relief_scale=scene.relief_scale), scene
-        )
+        relief = self.relief(stride=stride, relief_scale=scene.relief_scale, coarse_for=scene)
+        return self.with_materials(relief, scene)
 
     def with_materials(self, relief: Relief, scene: Scene) -> Surface:
         """``relief``, in pixels of the drawing, with the materials of ``scene``, and all of it that
@@ -212,10 +233,12 @@ class PreparedBody:
         """(3,) from the body's own pixels to those of the whole."""
         return np.array([self.left, self.top, 0], np.float32)
 
-    def relief(self, spacing: float, relief_scale: float) -> Relief:
+    def relief(
+        self, spacing: float, relief_scale: float, coarse_for: Scene | None = None
+    ) -> Relief:
         """The body's mesh in pixels of the whole, one vertex about every ``spacing`` pixels."""
         stride = max(1, round(spacing / self.drawing.scale))
-        own = self.drawing.relief(stride=stride, relief_scale=relief_scale)
+        own = self.drawing.relief(stride=stride, relief_scale=relief_scale, coarse_for=coarse_for)
         vertices = own.vertices + self.corner
         vertices[:, 2] += relief_scale * self.base.at(vertices[:, 0], vertices[:, 1])
         return replace(own, vertices=vertices)

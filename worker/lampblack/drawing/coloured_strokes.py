@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from .cutout import Colours
 from .morphology import Mask, depth_within
+
+Place = tuple[slice, ...]
 
 _MOST_COLOURS = 32
 _LONG = 4.0
@@ -36,26 +40,35 @@ def whole_strokes(lines: Mask, colour: Colours, area: Mask, widest: float) -> Ma
         alike = area & (keys == key)
         if not (alike & ~lines).any():
             continue
-        regions, count = ndimage.label(alike, np.ones((3, 3)))
-        inked = np.bincount(regions[lines], minlength=count + 1)
-        size = np.bincount(regions.ravel(), minlength=count + 1)
-        split = (inked > 0) & (inked < size) & (size >= widest)
-        split[0] = False
-        boxes = ndimage.find_objects(regions)
-        for number in np.flatnonzero(split):
-            rows, columns = boxes[number - 1]
-            place = (
-                slice(max(0, rows.start - 3), rows.stop + 3),
-                slice(max(0, columns.start - 3), columns.stop + 3),
-            )
-            stroke = regions[place] == number
+        box = _around(alike)
+        for place, stroke in _split_regions(alike[box], lines[box], widest):
             width = stroke_width(stroke)
             if width is None:
                 continue
-            found[place] |= stroke
+            found[box][place] |= stroke
             if width > widest:
-                found[place] &= ~_with_edge(stroke)
+                found[box][place] &= ~_with_edge(stroke)
     return found
+
+
+def _around(mask: Mask) -> Place:
+    """The box of ``mask``, with room for a stroke's soft edge."""
+    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+    return tuple(slice(max(0, int(k[0]) - 3), int(k[-1]) + 4) for k in (rows, columns))
+
+
+def _split_regions(alike: Mask, lines: Mask, least: float) -> Iterator[tuple[Place, Mask]]:
+    """The regions of ``alike``, of at least so many pixels, that are line in part only: a place
+    around each, and its mask there."""
+    regions, count = ndimage.label(alike, np.ones((3, 3)))
+    inked = np.bincount(regions[lines], minlength=count + 1)
+    size = np.bincount(regions.ravel(), minlength=count + 1)
+    split = (inked > 0) & (inked < size) & (size >= least)
+    split[0] = False
+    boxes = ndimage.find_objects(regions)
+    for number in np.flatnonzero(split):
+        place = tuple(slice(max(0, side.start - 3), side.stop + 3) for side in boxes[number - 1])
+        yield place, regions[place] == number
 
 
 def stroke_width(region: NDArray[np.bool_]) -> float | None:

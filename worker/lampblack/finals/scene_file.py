@@ -37,8 +37,9 @@ def save_scene(drawing: Drawing, prepared: PreparedDrawing, scene: Scene, path: 
     Raises:
         OutputError: it cannot be written. RenderError: Blender failed.
     """
-    surface = prepared.surface(scene, QUALITIES[scene.quality].mesh_stride)
-    relief = surface.relief
+    stride = QUALITIES[scene.quality].mesh_stride
+    relief = prepared.relief(stride=stride, relief_scale=scene.relief_scale)
+    surface = prepared.with_materials(relief, scene)
     if path.suffix.lower() == ".glb":
         _save_glb(prepared, relief, scene, path)
         return

@@ -7,8 +7,9 @@ from its normals with the steps, so that all its slopes stay those of the normal
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -172,14 +173,16 @@ def _small_of(prediction: Prediction, mask: NDArray[np.bool_], lines: Floats) ->
     by = max(1, round(max(sides) / SMALL_PX))
     counts = -(-sides[0] // by), -(-sides[1] // by)
 
-    def blocks(plane: NDArray[Any]) -> NDArray[Any]:
+    def blocks(plane: NDArray[Any]) -> Iterator[NDArray[Any]]:
+        """Each pixel of all blocks in turn: many times faster than to reduce two axes."""
         cut = plane[top : top + counts[0] * by, left : left + counts[1] * by]
         more = [(0, counts[axis] * by - cut.shape[axis]) for axis in (0, 1)]
         whole = np.pad(cut, more + [(0, 0)] * (cut.ndim - 2))
-        return whole.reshape(counts[0], by, counts[1], by, *cut.shape[2:])
+        return (whole[row::by, column::by] for row in range(by) for column in range(by))
 
     def mean(plane: NDArray[Any]) -> Floats:
-        return np.asarray(blocks(plane).mean(axis=(1, 3), dtype=np.float32))
+        total = reduce(np.add, (part.astype(np.float32) for part in blocks(plane)))
+        return np.asarray(total / np.float32(by * by))
 
     share = mean(mask)
     inside = share >= min(0.5, float(share.max()))
@@ -196,7 +199,7 @@ def _small_of(prediction: Prediction, mask: NDArray[np.bool_], lines: Floats) ->
         mask=inside,
         depth=mean(depth) / covered / np.float32(by),
         edge=mean(edge) / covered,
-        ink=(blocks(lines).max(axis=(1, 3)) > INK) & inside,
+        ink=(reduce(np.maximum, blocks(lines)) > INK) & inside,
         votes=None if votes is None else mean(votes),
     )
 
