@@ -13,9 +13,10 @@ struct UserError
     enum class Kind
     {
         Other,
-        NothingDrawn, ///< over as soon as something is drawn
-        NoWorker,     ///< the worker has been given up; it can be started again
-        NotRead       ///< over as soon as the drawing can be read
+        NothingDrawn,    ///< over as soon as something is drawn
+        NoWorker,        ///< the worker has been given up; it can be started again
+        NoOtherComputer, ///< another computer was to work, and does not
+        NotRead          ///< over as soon as the drawing can be read
     };
     QString what;
     QString remedy;

@@ -33,6 +33,13 @@ LampTool::LampTool(Host& host, Worker& worker, SceneDocument& document, QObject*
     setUpActions();
     setUpCanvas();
     connect(&worker, &Worker::problem, this, &LampTool::showProblem);
+    connect(&worker, &Worker::stateChanged, this,
+            [this](Worker::State state)
+            {
+                if (state == Worker::State::Ready || state == Worker::State::Busy)
+                    mMissing.clear();
+                updateMaterialsHint();
+            });
     connect(&host, &Host::problem, this, &LampTool::showProblem);
     connect(&host, &Host::frameExported, this, [this] { settleProblem(UserError::Kind::NotRead); });
     connect(&document, &SceneDocument::problem, this, &LampTool::showProblem);
@@ -96,7 +103,15 @@ void LampTool::addPanel()
     connect(mPanel, &LampPanel::retryRequested, &mWorker, &Worker::start);
     connect(&mWorker, &Worker::cardFound, mPanel->device(), &DeviceRow::setCard);
     connect(mPanel->device(), &DeviceRow::chosen, &mWorker, &Worker::setDevice);
+    connect(mPanel->device(), &DeviceRow::computerChosen, &mWorker,
+            [this](const std::optional<Computer>& computer)
+            {
+                mWorker.setComputer(computer);
+                if (mActive)
+                    mWorker.start();
+            });
     mWorker.setDevice(mPanel->device()->device());
+    mWorker.setComputer(mPanel->device()->computer());
     mPanel->setWorkerState(mWorker.state());
     if (auto* rigs = mPanel->findChild<RigMenu*>())
     {
@@ -128,7 +143,20 @@ void LampTool::addDock()
                 if (picking && mMaterials)
                     mMaterials->setPicking(mCanvas.isPicking());
             });
+    updateMaterialsHint();
     mHost.addDock(mMaterials);
+}
+
+void LampTool::updateMaterialsHint()
+{
+    if (!mMaterials)
+        return;
+    if (!mMissing.isEmpty())
+        mMaterials->setHint(mMissing);
+    else if (mActive)
+        mMaterials->setHint(tr("The colours of the drawing appear here when it is lit."));
+    else
+        mMaterials->setHint(tr("Choose the lamp to see the colours of the drawing here."));
 }
 
 void LampTool::setUpCanvas()
@@ -155,6 +183,7 @@ void LampTool::setActive(bool active)
     mWasActive = true;
     updateOverlay();
     updateInput();
+    updateMaterialsHint();
     updateProgress();
     Q_EMIT activeChanged(active);
 }
@@ -296,6 +325,9 @@ void LampTool::showProblem(const UserError& error)
     if (error.kind == UserError::Kind::NothingDrawn && error.frame != 0 &&
         error.frame != mHost.currentFrame())
         return;
+    if (error.kind == UserError::Kind::NoWorker || error.kind == UserError::Kind::NoOtherComputer)
+        mMissing = error.what + QLatin1Char(' ') + error.remedy;
+    updateMaterialsHint();
     if (mPanel)
         mPanel->showProblem(error);
     mHost.showStatus(error.what, ProblemMs);

@@ -97,6 +97,7 @@ private:
     void setUpActions();
     void setUpCanvas();
     void updateInput();
+    void updateMaterialsHint();
     void updateProgress();
     void settleProblem(UserError::Kind kind);
 
@@ -105,6 +106,7 @@ private:
     SceneDocument& mDocument;
     bool mActive = false;
     bool mWasActive = false; ///< and the artist has not put the light away since
+    QString mMissing;        ///< why there is no worker, and what to do; empty while there is one
     bool mLighting = false;
     FrameColours mColours;
     QHash<int, QTransform> mCameras; ///< canvas to image, by frame, if not identity

@@ -64,6 +64,7 @@ void MainWindow::addTimeline()
     mSlider->setObjectName(QStringLiteral("lampblack.window.frame"));
     mSlider->setAccessibleName(tr("Frame"));
     mNumber = new QLabel;
+    mNumber->setObjectName(QStringLiteral("lampblack.window.number"));
     const auto step = [this](const QString& text, const QString& hint, int frames, const QKeySequence& key)
     {
         QAction* action = mTimeline->addAction(text);
@@ -95,7 +96,10 @@ void MainWindow::setFrame(int frame)
 {
     const QSignalBlocker blocker(mSlider);
     mSlider->setValue(frame);
-    mNumber->setText(tr("Frame %1 of %2").arg(frame).arg(mSlider->maximum()));
+    mNumber->setText(
+        mSlider->minimum() == 1
+            ? tr("Frame %1 of %2").arg(frame).arg(mSlider->maximum())
+            : tr("Frame %1 (%2 to %3)").arg(frame).arg(mSlider->minimum()).arg(mSlider->maximum()));
 }
 
 void MainWindow::chooseFile()

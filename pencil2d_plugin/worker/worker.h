@@ -13,6 +13,8 @@
 #include <QTransform>
 #include <QVector>
 
+#include <optional>
+
 namespace lampblack
 {
 
@@ -40,6 +42,19 @@ struct RigSketch
 {
     QString name;   ///< as in the file of the rig, such as "three-point"
     QImage picture; ///< square, Format_RGBA8888_Premultiplied
+};
+
+/// A computer on which somebody has started `lampblack serve --listen`.
+struct Computer
+{
+    QString address; ///< such as 10.0.0.5:7100
+    QString key;     ///< file of its public key
+    QString ownKey;  ///< file of our secret key
+
+    bool operator==(const Computer& other) const
+    {
+        return address == other.address && key == other.key && ownKey == other.ownKey;
+    }
 };
 
 class Worker : public QObject
@@ -73,6 +88,9 @@ public:
     };
     /// A process that runs is replaced by one with this device; its jobs begin again.
     virtual void setDevice(Device device) = 0;
+    /// Let another computer work, or this one again. Jobs begin again there. Files that a job writes must lie
+    /// in folders that both computers see under the same name.
+    virtual void setComputer(const std::optional<Computer>& computer) = 0;
 
     /// Frame `frame` shows `pixels` (Format_RGBA8888), which are `layers` together if these are drawn apart.
     /// `camera` maps canvas to view pixels. Returns at once: the digest is calculated in another thread. The

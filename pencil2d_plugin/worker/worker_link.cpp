@@ -7,6 +7,7 @@
 #include <QMutexLocker>
 
 #include <csignal>
+#include <iterator>
 
 namespace lampblack
 {
@@ -21,6 +22,7 @@ constexpr int HeartbeatMs = 1000;
 // Long, because on a machine that has much else to do, a worker that is well is silent for seconds.
 constexpr int HeartbeatTimeoutMs = 10000;
 constexpr qint64 GreetingMs = 30000;
+constexpr qint64 FarGreetingMs = 10000; ///< of a worker that has long been started
 constexpr int MissedStatuses = 10;
 constexpr int MaxRefusalsLogged = 10;
 constexpr int MaxAtOnce = 64;           // messages read before anything is sent again
@@ -60,6 +62,13 @@ void maskSignals()
     pthread_sigmask(SIG_BLOCK, &signalsToBlock, nullptr);
 }
 
+/// Whether the handshake has failed: no other events are asked for.
+bool isRefused(zmq::socket_t& events)
+{
+    zmq::message_t event;
+    return events.recv(event, zmq::recv_flags::dontwait).has_value();
+}
+
 protocol::Error errorOf(protocol::ErrorCode code, const QString& details)
 {
     protocol::Error error;
@@ -71,9 +80,10 @@ protocol::Error errorOf(protocol::ErrorCode code, const QString& details)
 
 } // namespace
 
-WorkerLink::WorkerLink(const QString& endpoint, QObject* parent)
-    : QThread(parent), mEndpoint(endpoint.toUtf8()), mWake(mContext, zmq::socket_type::pair)
+WorkerLink::WorkerLink(const QString& endpoint, const CurveKeys& keys, QObject* parent)
+    : QThread(parent), mEndpoint(endpoint.toUtf8()), mKeys(keys), mWake(mContext, zmq::socket_type::pair)
 {
+    qRegisterMetaType<Loss>("lampblack::WorkerLink::Loss");
     mWake.bind("inproc://wake");
     start();
 }
@@ -157,33 +167,51 @@ bool WorkerLink::outboxIsEmpty()
     return mOutbox.isEmpty();
 }
 
+void WorkerLink::setUp(zmq::socket_t& socket)
+{
+    socket.set(zmq::sockopt::linger, 0);
+    socket.set(zmq::sockopt::sndhwm, HighWater);
+    socket.set(zmq::sockopt::rcvhwm, HighWater);
+    socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(protocol::Limits().planeBytes));
+    socket.set(zmq::sockopt::heartbeat_ivl, HeartbeatMs);
+    socket.set(zmq::sockopt::heartbeat_timeout, HeartbeatTimeoutMs);
+    if (!mKeys.worker.empty())
+    {
+        socket.set(zmq::sockopt::curve_serverkey, mKeys.worker);
+        socket.set(zmq::sockopt::curve_publickey, mKeys.ownPublic);
+        socket.set(zmq::sockopt::curve_secretkey, mKeys.ownSecret);
+    }
+}
+
 void WorkerLink::run()
 {
     maskSignals();
+    Loss loss = Loss::Silent;
     try
     {
         zmq::socket_t socket(mContext, zmq::socket_type::dealer);
-        socket.set(zmq::sockopt::linger, 0);
-        socket.set(zmq::sockopt::sndhwm, HighWater);
-        socket.set(zmq::sockopt::rcvhwm, HighWater);
-        socket.set(zmq::sockopt::maxmsgsize, static_cast<int64_t>(protocol::Limits().planeBytes));
-        socket.set(zmq::sockopt::heartbeat_ivl, HeartbeatMs);
-        socket.set(zmq::sockopt::heartbeat_timeout, HeartbeatTimeoutMs);
+        setUp(socket);
+        constexpr int Refusals = ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
+                                 ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
+        zmq_socket_monitor(socket.handle(), "inproc://events", Refusals);
+        zmq::socket_t events(mContext, zmq::socket_type::pair);
+        events.connect("inproc://events");
         socket.connect(mEndpoint.constData());
         zmq::socket_t wake(mContext, zmq::socket_type::pair);
         wake.connect("inproc://wake");
-        exchangeMessages(socket, wake);
+        loss = exchangeMessages(socket, wake, events);
     }
     catch (const std::exception& error)
     {
         qCWarning(log) << "The connection to the worker broke:" << error.what();
     }
-    Q_EMIT connectionLost();
+    Q_EMIT connectionLost(loss);
 }
 
-void WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake)
+WorkerLink::Loss WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake,
+                                              zmq::socket_t& events)
 {
-    mTimeoutMs = GreetingMs;
+    mTimeoutMs = mKeys.worker.empty() ? GreetingMs : FarGreetingMs;
     mLastTickMs = nowMs();
     for (;;)
     {
@@ -191,7 +219,7 @@ void WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake)
             const QMutexLocker lock(&mMutex);
             if (mClosing)
             {
-                return;
+                return Loss::Silent;
             }
         }
         const bool reading = !inboxIsFull();
@@ -199,14 +227,19 @@ void WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake)
         {
             mLastTickMs = nowMs(); // we do not read, so we cannot know
         }
-        const int events = (reading ? ZMQ_POLLIN : 0) | (outboxIsEmpty() ? 0 : ZMQ_POLLOUT);
+        const int awaited = (reading ? ZMQ_POLLIN : 0) | (outboxIsEmpty() ? 0 : ZMQ_POLLOUT);
         zmq::pollitem_t items[] = {{wake.handle(), 0, ZMQ_POLLIN, 0},
-                                   {socket.handle(), 0, static_cast<short>(events), 0}};
+                                   {events.handle(), 0, ZMQ_POLLIN, 0},
+                                   {socket.handle(), 0, static_cast<short>(awaited), 0}};
         const qint64 left = mLastTickMs + mTimeoutMs - nowMs();
-        zmq::poll(items, 2, std::chrono::milliseconds(qMax(qint64(0), left) + 1));
+        zmq::poll(items, std::size(items), std::chrono::milliseconds(qMax(qint64(0), left) + 1));
         zmq::message_t nudge;
         while (wake.recv(nudge, zmq::recv_flags::dontwait))
         {
+        }
+        if (isRefused(events))
+        {
+            return Loss::Refused;
         }
         sendPending(socket);
         if (reading)
@@ -214,7 +247,7 @@ void WorkerLink::exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake)
             const bool drained = receivePending(socket);
             if (drained && nowMs() - mLastTickMs > mTimeoutMs)
             {
-                return;
+                return mWasGreeted ? Loss::Silent : Loss::NotReached;
             }
         }
     }
@@ -302,6 +335,7 @@ void WorkerLink::handleMessage(const std::vector<zmq::message_t>& frames)
     const auto& received = std::get<protocol::Received>(decoded);
     if (const auto* welcome = std::get_if<protocol::Welcome>(&received.message))
     {
+        mWasGreeted = true;
         mTimeoutMs = MissedStatuses * welcome->statusMs;
         mLastTickMs = nowMs();
     }

@@ -1,6 +1,7 @@
 // The socket to the worker, in its own thread.
 #pragma once
 
+#include "worker/curve_keys.h"
 #include "worker/inbox.h"
 #include "worker/outbox.h"
 
@@ -21,7 +22,16 @@ class WorkerLink : public QThread
     Q_OBJECT
 
 public:
-    explicit WorkerLink(const QString& endpoint, QObject* parent = nullptr);
+    /// How a connection ended.
+    enum class Loss
+    {
+        Silent,     ///< nothing can be sent, or status messages are missing (SPEC 5)
+        NotReached, ///< nobody has answered
+        Refused     ///< it does not know our key, or has another key than we believe
+    };
+    Q_ENUM(Loss)
+
+    explicit WorkerLink(const QString& endpoint, const CurveKeys& keys = {}, QObject* parent = nullptr);
     /// Waits for the thread, a few milliseconds. closeLater() does not.
     ~WorkerLink() override;
 
@@ -34,11 +44,13 @@ public:
 
 Q_SIGNALS:
     void messagesArrived(); ///< call takeIncoming(); emitted once until it is called
-    void connectionLost();  ///< nothing can be sent, or status messages are missing (SPEC 5)
+    void connectionLost(lampblack::WorkerLink::Loss loss);
 
 private:
     void run() override;
-    void exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake);
+    void setUp(zmq::socket_t& socket);
+    /// Until the connection is closed or lost. `events` reports those of `socket`.
+    Loss exchangeMessages(zmq::socket_t& socket, zmq::socket_t& wake, zmq::socket_t& events);
     bool receivePending(zmq::socket_t& socket); ///< false if more may be waiting
     void handleMessage(const std::vector<zmq::message_t>& frames);
     void queueIncoming(const Incoming& incoming);
@@ -48,6 +60,7 @@ private:
     bool outboxIsEmpty();
 
     const QByteArray mEndpoint;
+    const CurveKeys mKeys;
     zmq::context_t mContext{1};
     zmq::socket_t mWake; ///< wakes the thread
 
@@ -57,6 +70,7 @@ private:
     bool mClosing = false;
 
     // Used by the thread only.
+    bool mWasGreeted = false;
     qint64 mTimeoutMs = 0;  ///< how long no status may come
     qint64 mLastTickMs = 0; ///< when the last status came, by a monotonic clock
     int mRefusals = 0;

@@ -8,8 +8,6 @@
 #include <QCoreApplication>
 #include <QDir>
 
-#include <algorithm>
-
 #ifdef Q_OS_LINUX
 #include <csignal>
 #include <sys/prctl.h>
@@ -24,9 +22,6 @@ namespace
 constexpr int ConnectionCheckMs = 50;
 constexpr int StartTimeoutMs = 60000; // importing the network's library from a cold disk is slow
 constexpr int EndTimeoutMs = 2000;
-constexpr int RestartDelaysMs[] = {0, 1000, 3000};
-constexpr int MaxDeaths = 4;
-constexpr qint64 MinuteMs = 60000;
 constexpr int MaxStderrBytes = 4096;
 
 /// A process that goes on if it is stopped when this one ends: only then can it see that, and end too.
@@ -47,9 +42,8 @@ protected:
 } // namespace
 
 WorkerProcess::WorkerProcess(const Interpreter& interpreter, QObject* parent)
-    : QObject(parent), mInterpreter(interpreter)
+    : WorkerSource(parent), mInterpreter(interpreter)
 {
-    mClock.start();
     mConnectionTimer.setInterval(ConnectionCheckMs);
     mRestartTimer.setSingleShot(true);
     connect(&mConnectionTimer, &QTimer::timeout, this, &WorkerProcess::checkForConnection);
@@ -79,7 +73,7 @@ void WorkerProcess::start()
         return;
     }
     mRunning = true;
-    mDeaths.clear();
+    mRetries.forget();
     mRestartTimer.start(0);
 }
 
@@ -103,6 +97,11 @@ void WorkerProcess::giveUp(UserError error)
     stop();
     error.kind = UserError::Kind::NoWorker;
     Q_EMIT gaveUp(error);
+}
+
+UserError WorkerProcess::versionMismatch(const QString& details) const
+{
+    return lampblack::versionMismatch(mInterpreter, details);
 }
 
 void WorkerProcess::launch()
@@ -172,7 +171,6 @@ void WorkerProcess::checkForConnection()
     else if (connection->lampblack != protocol::Major)
     {
         giveUp(versionMismatch(
-            mInterpreter,
             QStringLiteral("The worker speaks version %1, the plugin version %2 of the protocol.")
                 .arg(connection->lampblack)
                 .arg(protocol::Major)));
@@ -222,20 +220,14 @@ void WorkerProcess::onDied(const QString& reason)
 {
     readStderr();
     endProcess();
-    const qint64 now = mClock.elapsed();
-    mDeaths.append(now);
-    const auto old = [now](qint64 death)
-    {
-        return death < now - MinuteMs;
-    };
-    mDeaths.erase(std::remove_if(mDeaths.begin(), mDeaths.end(), old), mDeaths.end());
+    const std::optional<int> delay = mRetries.delayAfterFailure();
     if (mStderrTail.contains("No module named lampblack"))
     {
         giveUp(notInstalled(mInterpreter, stderrTail()));
     }
-    else if (mDeaths.size() >= MaxDeaths)
+    else if (!delay)
     {
-        giveUp({tr("The renderer stopped %1 times within a minute.").arg(mDeaths.size()),
+        giveUp({tr("The renderer stopped %1 times within a minute.").arg(mRetries.failures()),
                 tr("Open a terminal and type: %1 -I -m lampblack doctor").arg(mInterpreter.path),
                 reason + QLatin1Char('\n') + stderrTail()});
     }
@@ -244,7 +236,7 @@ void WorkerProcess::onDied(const QString& reason)
         Q_EMIT lost();
         if (mRunning)
         {
-            mRestartTimer.start(RestartDelaysMs[mDeaths.size() - 1]);
+            mRestartTimer.start(*delay);
         }
     }
 }

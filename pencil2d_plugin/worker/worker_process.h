@@ -1,11 +1,11 @@
 // Starts, watches, restarts and ends the worker process.
 #pragma once
 
-#include "user_error.h"
 #include "worker/interpreter.h"
+#include "worker/retries.h"
+#include "worker/worker_source.h"
 
 #include <QElapsedTimer>
-#include <QObject>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -19,7 +19,7 @@ namespace lampblack
 /// no code from the current folder is run. The folder and all files in it are removed when the process ends.
 /// A process that dies is started again: at once, after 1 s, after 3 s. If it dies a fourth time within a
 /// minute, it is given up.
-class WorkerProcess : public QObject
+class WorkerProcess : public WorkerSource
 {
     Q_OBJECT
 
@@ -28,25 +28,19 @@ public:
     /// Waits for the worker's end, at most 2 s.
     ~WorkerProcess() override;
 
-    bool isRunning() const { return mRunning; }
+    bool isRunning() const override { return mRunning; }
     const Interpreter& interpreter() const { return mInterpreter; }
     /// As of the option --device, for processes that are started from now on.
     void setDevice(const QString& device) { mDevice = device; }
-    void start();
-    void stop();
-    /// End a process that is of no more use, and start another. `reason` is for the details of an error.
-    void restart(const QString& reason);
-    /// End the process, start no other, and emit gaveUp(). start() tries again.
-    void giveUp(UserError error);
+    void start() override;
+    void stop() override;
+    void restart(const QString& reason) override;
+    void giveUp(UserError error) override;
+    UserError versionMismatch(const QString& details) const override;
 
     qint64 pid() const { return mProcess == nullptr ? 0 : mProcess->processId(); }
     /// The end of what it wrote to stderr, at most 4 kB.
     QString stderrTail() const { return QString::fromUtf8(mStderrTail); }
-
-Q_SIGNALS:
-    void ready(const QString& endpoint); ///< clients can connect
-    void lost();                         ///< the process has ended; another is being started
-    void gaveUp(const lampblack::UserError& error);
 
 private:
     void launch();
@@ -64,8 +58,7 @@ private:
     QTimer mConnectionTimer;
     QTimer mRestartTimer;
     QElapsedTimer mSinceLaunch;
-    QElapsedTimer mClock;
-    QVector<qint64> mDeaths; ///< times by mClock, of the last minute
+    Retries mRetries;
 };
 
 } // namespace lampblack

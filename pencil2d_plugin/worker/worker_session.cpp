@@ -5,6 +5,9 @@
 #include "worker/frame_list.h"
 #include "worker/sendable.h"
 
+#include <QDir>
+#include <QFileInfo>
+
 namespace lampblack
 {
 
@@ -21,18 +24,10 @@ constexpr int MostRigSide = 256;
 WorkerSession::WorkerSession(const Interpreter& interpreter, qint64 bytesKept, QObject* parent)
     : Worker(parent), mProcess(interpreter), mFrameStore(bytesKept)
 {
-    connect(&mProcess, &WorkerProcess::ready, this, &WorkerSession::connectTo);
-    connect(&mProcess, &WorkerProcess::lost, this, &WorkerSession::onWorkerLost);
-    connect(&mProcess, &WorkerProcess::gaveUp, this,
-            [this](const UserError& error)
-            {
-                onWorkerLost();
-                mJobs.endAll(protocol::Outcome::Failed);
-                Q_EMIT problem(error);
-            });
+    watch(mProcess);
     connect(&mFrameStore, &FrameStore::frameHashed, this, &WorkerSession::onFrameHashed);
     connect(&mJobs, &RenderJobs::progress, this, &Worker::renderProgress);
-    connect(&mJobs, &RenderJobs::frameDone, this, &Worker::renderFrameDone);
+    connect(&mJobs, &RenderJobs::frameDone, this, &WorkerSession::onFrameWritten);
     connect(&mJobs, &RenderJobs::ended, this, &Worker::renderDone);
 }
 
@@ -42,19 +37,37 @@ WorkerSession::~WorkerSession()
     delete mLink;
 }
 
+WorkerSource& WorkerSession::source()
+{
+    return mOther != nullptr ? static_cast<WorkerSource&>(*mOther) : mProcess;
+}
+
+void WorkerSession::watch(WorkerSource& source)
+{
+    connect(&source, &WorkerSource::ready, this, &WorkerSession::connectTo);
+    connect(&source, &WorkerSource::lost, this, &WorkerSession::onWorkerLost);
+    connect(&source, &WorkerSource::gaveUp, this,
+            [this](const UserError& error)
+            {
+                onWorkerLost();
+                mJobs.endAll(protocol::Outcome::Failed);
+                Q_EMIT problem(error);
+            });
+}
+
 void WorkerSession::start()
 {
-    if (!mProcess.isRunning())
+    if (!source().isRunning())
     {
         mWasLost = false;
-        mProcess.start();
+        source().start();
         updateState();
     }
 }
 
 void WorkerSession::stop()
 {
-    mProcess.stop();
+    source().stop();
     closeLink();
     mJobs.endAll(protocol::Outcome::Cancelled);
     updateState();
@@ -68,6 +81,22 @@ void WorkerSession::setDevice(Device device)
         mProcess.stop();
         onWorkerLost();
         mProcess.start();
+    }
+}
+
+void WorkerSession::setComputer(const std::optional<Computer>& computer)
+{
+    const bool wasRunning = source().isRunning();
+    source().stop();
+    mOther = computer ? std::make_unique<OtherComputer>(*computer) : nullptr;
+    if (mOther != nullptr)
+    {
+        watch(*mOther);
+    }
+    if (wasRunning)
+    {
+        onWorkerLost();
+        source().start();
     }
 }
 
@@ -233,7 +262,7 @@ quint64 WorkerSession::render(const QString& frames, const QString& output, Qual
                           tr("Choose a folder without a percent sign, and a name such as shot.%04d.png."),
                           output});
     }
-    if (!mProcess.isRunning())
+    if (!source().isRunning())
     {
         return refuseJob({tr("Nothing was rendered: the renderer is not running."),
                           tr("Start Pencil2D again, then render again."), QString()});
@@ -290,24 +319,58 @@ void WorkerSession::connectTo(const QString& endpoint)
     closeLink();
     try
     {
-        mLink = new WorkerLink(endpoint, this);
+        mLink = new WorkerLink(endpoint, source().keys(), this);
     }
     catch (const std::exception& error)
     {
-        mProcess.restart(QString::fromLocal8Bit(error.what()));
+        source().restart(QString::fromLocal8Bit(error.what()));
         return;
     }
     connect(mLink, &WorkerLink::messagesArrived, this, &WorkerSession::handleIncoming);
     connect(mLink, &WorkerLink::connectionLost, this,
-            [this, link = mLink]
+            [this, link = mLink](WorkerLink::Loss loss)
             {
                 if (link == mLink)
                 {
-                    mProcess.restart(QStringLiteral("It did not answer any more."));
+                    onLinkLost(loss);
                 }
             });
     const QString version = QStringLiteral(LAMPBLACK_VERSION);
     mLink->send({protocol::Hello{protocol::Minor, QStringLiteral("pencil2d"), version, {}}, {}});
+}
+
+void WorkerSession::onLinkLost(WorkerLink::Loss loss)
+{
+    if (mOther != nullptr && loss == WorkerLink::Loss::Refused)
+    {
+        mOther->giveUp(mOther->refused());
+    }
+    else if (mOther != nullptr && loss == WorkerLink::Loss::NotReached)
+    {
+        mOther->giveUp(mOther->notReached());
+    }
+    else
+    {
+        source().restart(QStringLiteral("It did not answer any more."));
+    }
+}
+
+void WorkerSession::onFrameWritten(quint64 job, int frame, const QString& path)
+{
+    // The folder is read: of a file on a file server, this machine may still remember that it was not there.
+    const QFileInfo file(path);
+    if (mOther == nullptr || file.dir().entryList(QDir::Files).contains(file.fileName()))
+    {
+        Q_EMIT renderFrameDone(job, frame, path);
+        return;
+    }
+    Q_EMIT problem(
+        {tr("The lit pictures are on the other computer, and not here."),
+         tr("Save the project in a folder that both computers see under the same name. Or render on "
+            "this computer."),
+         path});
+    sendMessage(protocol::Cancel{mJobs.jobs().value(job).request});
+    mJobs.end(job, protocol::Outcome::Failed);
 }
 
 void WorkerSession::closeLink()
@@ -359,7 +422,7 @@ void WorkerSession::handleIncoming()
                 }
                 else if constexpr (std::is_same_v<Kind, protocol::Bye>)
                 {
-                    mProcess.restart(QStringLiteral("It left: ") + message.reason);
+                    source().restart(QStringLiteral("It left: ") + message.reason);
                 }
                 else if constexpr (std::is_same_v<Kind, protocol::Welcome> ||
                                    std::is_same_v<Kind, protocol::NeedFrame> ||

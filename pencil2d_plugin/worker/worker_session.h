@@ -3,6 +3,7 @@
 
 #include "worker/frame_store.h"
 #include "worker/image_rank.h"
+#include "worker/other_computer.h"
 #include "worker/render_jobs.h"
 #include "worker/worker.h"
 #include "worker/worker_link.h"
@@ -11,6 +12,7 @@
 #include <QSet>
 
 #include <array>
+#include <memory>
 #include <optional>
 
 namespace lampblack
@@ -33,6 +35,7 @@ public:
     void start() override;
     void stop() override;
     void setDevice(Device device) override;
+    void setComputer(const std::optional<Computer>& computer) override;
     void putFrame(int frame, const QImage& pixels, const QTransform& camera = {},
                   const DrawnLayers& layers = {}) override;
     void dropFrame(int frame) override;
@@ -62,7 +65,11 @@ private:
         quint64 request = 0; ///< 0 while it is not sent
     };
 
+    WorkerSource& source();
+    void watch(WorkerSource& source);
     void connectTo(const QString& endpoint);
+    void onLinkLost(WorkerLink::Loss loss);
+    void onFrameWritten(quint64 job, int frame, const QString& path);
     void closeLink();
     void onWorkerLost();
     void handleIncoming();
@@ -95,6 +102,7 @@ private:
     void handle(const protocol::Error& error);
 
     WorkerProcess mProcess;
+    std::unique_ptr<OtherComputer> mOther; ///< works in place of the process
     WorkerLink* mLink = nullptr;
     State mState = State::Absent;
     bool mGreeted = false;

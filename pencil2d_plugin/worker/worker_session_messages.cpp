@@ -156,14 +156,14 @@ void WorkerSession::handle(const protocol::Error& error)
     const QString details = QStringLiteral("%1: %2").arg(error.code, error.details);
     if (error.code == QLatin1String("version_mismatch"))
     {
-        mProcess.giveUp(versionMismatch(mProcess.interpreter(), details));
+        source().giveUp(source().versionMismatch(details));
         return;
     }
     if (error.code == QLatin1String("not_greeted"))
     {
         if (mGreeted)
         {
-            mProcess.restart(QStringLiteral("It forgot us."));
+            source().restart(QStringLiteral("It forgot us."));
         }
         return;
     }
@@ -194,7 +194,7 @@ void WorkerSession::handle(const protocol::Error& error)
     Q_EMIT problem({error.what, error.remedy, details});
     if (error.fatal)
     {
-        mProcess.restart(error.what);
+        source().restart(error.what);
     }
 }
 
@@ -202,7 +202,7 @@ void WorkerSession::updateState()
 {
     State state = State::Ready;
     const State underWay = mWasLost ? State::Restarting : State::Starting;
-    if (!mProcess.isRunning())
+    if (!source().isRunning())
     {
         state = State::Absent;
     }

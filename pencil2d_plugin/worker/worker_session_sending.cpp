@@ -16,7 +16,7 @@ void WorkerSession::sendMessage(const protocol::Message& message, const QVector<
 {
     if (mGreeted && !mLink->send({message, planes}))
     {
-        mProcess.restart(QStringLiteral("It did not read any more."));
+        source().restart(QStringLiteral("It did not read any more."));
     }
 }
 

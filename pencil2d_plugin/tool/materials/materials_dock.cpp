@@ -43,7 +43,6 @@ MaterialsDock::MaterialsDock(SceneDocument& document)
         heading->addWidget(label);
     }
     mEmptyLabel->setObjectName(QStringLiteral("lampblack.materials.empty"));
-    mEmptyLabel->setText(tr("Choose the lamp to see the colours of the drawing here."));
     mEmptyLabel->setWordWrap(true);
     mEmptyLabel->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     mEmptyLabel->setMargin(6);

@@ -23,6 +23,8 @@ public:
     explicit MaterialsDock(SceneDocument& document);
 
     void setPalette(const QVector<Swatch>& swatches);
+    /// What is said while there are no colours.
+    void setHint(const QString& hint) { mEmptyLabel->setText(hint); }
     /// Mark the row of a colour; empty for none.
     void setHighlighted(const QString& colour);
     /// Show the dock, scroll to the row of a colour and mark it.

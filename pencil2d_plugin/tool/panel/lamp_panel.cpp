@@ -88,6 +88,13 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAc
     restoreSections(host);
     connect(mProblem, &ProblemCard::retryRequested, this, &LampPanel::retryRequested);
     connect(mInstall, &InstallCard::installed, this, &LampPanel::retryRequested);
+    connect(mDevice, &DeviceRow::computerChosen, this,
+            [this]
+            {
+                mInstall->hide(); // it asks again if this computer is to work, and cannot
+                mProblem->settle(UserError::Kind::NoWorker);
+                mProblem->settle(UserError::Kind::NoOtherComputer);
+            });
     connect(&host, &Host::colourChosen, this,
             [this](const QColor& colour)
             {
@@ -187,7 +194,10 @@ void LampPanel::setWorkerState(Worker::State state)
 {
     mWorkerLine->setState(state);
     if (state == Worker::State::Ready || state == Worker::State::Busy)
+    {
         mProblem->settle(UserError::Kind::NoWorker);
+        mProblem->settle(UserError::Kind::NoOtherComputer);
+    }
 }
 
 void LampPanel::showProblem(const UserError& error)

@@ -68,7 +68,8 @@ void ProblemCard::showError(const UserError& error)
     mWhat->setText(error.what);
     mRemedy->setText(error.remedy);
     mRemedy->setVisible(!error.remedy.isEmpty());
-    mRetry->setVisible(error.kind == UserError::Kind::NoWorker);
+    mRetry->setVisible(error.kind == UserError::Kind::NoWorker ||
+                       error.kind == UserError::Kind::NoOtherComputer);
     // An empty drawing is no fault, so there is nothing to report.
     mCopy->setVisible(error.kind != UserError::Kind::NothingDrawn);
     show();

@@ -25,6 +25,7 @@ public:
     void start() override { ++mStarted; }
     void stop() override { ++mStopped; }
     void setDevice(Device device) override { mDevice = device; }
+    void setComputer(const std::optional<Computer>& computer) override { mComputer = computer; }
     void putFrame(int frame, const QImage& image, const QTransform&, const DrawnLayers& layers) override
     {
         mPut.append(frame);
@@ -112,6 +113,7 @@ public:
 
     State mState = State::Ready;
     Device mDevice = Device::Auto;
+    std::optional<Computer> mComputer;
     int mStarted = 0;
     int mStopped = 0;
     QVector<int> mPut;

@@ -8,7 +8,10 @@
 #include "tool/panel/problem_card.h"
 
 #include <QComboBox>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
 #include <QToolButton>
@@ -70,9 +73,8 @@ private Q_SLOTS:
         {
             LampTool lamp(host, worker, document);
             host.open();
-            QVERIFY2(!choiceOf(host)->isVisible(), "without a card there is nothing to choose");
+            QVERIFY2(choiceOf(host)->findText(QStringLiteral("Processor")) < 0, "there is no card");
             Q_EMIT worker.cardFound(QStringLiteral("Paper Card"));
-            QVERIFY(choiceOf(host)->isVisible());
             QCOMPARE(choiceOf(host)->itemData(0, Qt::ToolTipRole).toString(), QStringLiteral("Paper Card"));
             QTest::keyClick(choiceOf(host), Qt::Key_Down);
             QCOMPARE(worker.mDevice, Worker::Device::Processor);
@@ -83,7 +85,72 @@ private Q_SLOTS:
         LampTool lamp(another, later, document);
         QCOMPARE(later.mDevice, Worker::Device::Processor);
         another.open();
-        QVERIFY2(choiceOf(another)->isVisible(), "it can be taken again");
+        QCOMPARE(choiceOf(another)->currentText(), QStringLiteral("Processor"));
+        QVERIFY2(choiceOf(another)->findText(QStringLiteral("Card")) >= 0, "it can be taken again");
+    }
+
+    void anotherComputerCanWork()
+    {
+        const Computer studio{QStringLiteral("10.0.0.5:7100"), QStringLiteral("/keys/studio.key"),
+                              QStringLiteral("/keys/ana.key_secret")};
+        FakeHost host;
+        SceneDocument document;
+        {
+            FakeWorker worker;
+            LampTool lamp(host, worker, document);
+            host.open();
+            auto* choice = host.mPanel->findChild<QComboBox*>(QStringLiteral("lampblack.panel.device"));
+            const auto dialog = [&host]
+            {
+                return host.mPanel->findChild<QDialog*>(QStringLiteral("lampblack.computer"));
+            };
+            QTest::keyClick(choice, Qt::Key_Down);
+            QVERIFY(dialog() != nullptr);
+            auto* buttons = dialog()->findChild<QDialogButtonBox*>();
+            QVERIFY2(!buttons->button(QDialogButtonBox::Ok)->isEnabled(), "nothing is said yet");
+            dialog()->reject();
+            QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+            QCOMPARE(choice->currentIndex(), 0);
+            QVERIFY(!worker.mComputer);
+            QTest::keyClick(choice, Qt::Key_Down);
+            const auto say = [&dialog](const char* name, const QString& text)
+            {
+                dialog()
+                    ->findChild<QLineEdit*>(QStringLiteral("lampblack.computer.") + QLatin1String(name))
+                    ->setText(text);
+            };
+            say("address", studio.address);
+            say("key", studio.key);
+            say("own_key", studio.ownKey);
+            dialog()->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok)->click();
+            QVERIFY(worker.mComputer == studio);
+        }
+        FakeHost another;
+        another.mRemembered = host.mRemembered;
+        FakeWorker later;
+        LampTool lamp(another, later, document);
+        QVERIFY2(later.mComputer == studio, "it is remembered");
+        another.open();
+        auto* choice = another.mPanel->findChild<QComboBox*>(QStringLiteral("lampblack.panel.device"));
+        QTest::keyClick(choice, Qt::Key_Up);
+        QVERIFY(!later.mComputer);
+    }
+
+    void materialsSayWhatIsMissing()
+    {
+        FakeHost host;
+        FakeWorker worker;
+        SceneDocument document;
+        LampTool lamp(host, worker, document);
+        auto* hint = host.mWindow.findChild<QLabel*>(QStringLiteral("lampblack.materials.empty"));
+        const QString invitation = hint->text();
+        host.open();
+        QVERIFY2(hint->text() != invitation, "the lamp has been chosen");
+        Q_EMIT worker.problem({QStringLiteral("It is not installed."), QStringLiteral("Press Install."),
+                               QString(), UserError::Kind::NoWorker});
+        QCOMPARE(hint->text(), QStringLiteral("It is not installed. Press Install."));
+        Q_EMIT worker.stateChanged(Worker::State::Ready);
+        QVERIFY(!hint->text().contains(QStringLiteral("installed")));
     }
 
     void showsThePictureItIsGivenWhileInUse()

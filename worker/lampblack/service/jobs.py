@@ -6,6 +6,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from ..drawing import DrawingPlanes
 from ..errors import (
@@ -63,6 +64,8 @@ class Jobs:
         previews: state of the preview, whose planes are used too.
         need: requests the planes of a drawing from the client of a session.
         deliver: sends a message to a session.
+        for_others: clients are on other machines: nothing is written into folders that are not
+            there, because what the client made a folder for is then not seen here.
 
     Attributes:
         state: state of the renderer of jobs.
@@ -72,6 +75,7 @@ class Jobs:
     pipeline: Pipeline
     need: Callable[[str, str], None]
     deliver: Callable[[str, Message], None]
+    for_others: bool = False
     state: RendererState = "off"
     _waiting: deque[Job] = field(default_factory=deque)
     _current: Job | None = None
@@ -162,6 +166,13 @@ class Jobs:
         """Raises OutputError: files cannot be written there. LampblackError: the project cannot be
         read."""
         message = job.message
+        folder = Path(message.output).parent
+        if self.for_others and not folder.is_dir():
+            raise OutputError(
+                f"The computer that renders does not see the folder {folder}.",
+                "Save the project in a folder that both computers see under the same name. "
+                "Or render on your own computer.",
+            )
         if message.project:
             settings = RenderSettings(
                 inputs=(message.project,),

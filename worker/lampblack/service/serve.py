@@ -62,7 +62,8 @@ def serve_forever(
                 cache = surface_cache()
                 finals = RenderChild(NICENESS, device)
                 jobs = Pipeline(cache, renderer=finals)
-                service = Service(socket, previews, Pipeline(cache), jobs)
+                elsewhere = isinstance(where, Listening)
+                service = Service(socket, previews, Pipeline(cache), jobs, for_others=elsewhere)
                 previews.on_slow = finals.on_slow = service.tell_slow
                 with connection_file(where, endpoint) if isinstance(where, Path) else nullcontext():
                     Server(socket, service).run(lambda: _is_gone(watched), watched)

@@ -56,6 +56,7 @@ class Service:
     Args:
         renderer, pipeline: for previews.
         job_pipeline: for render jobs, and closed with them.
+        for_others: clients are on other machines.
         clock: monotonic seconds.
     """
 
@@ -66,6 +67,8 @@ class Service:
         pipeline: Pipeline,
         job_pipeline: Pipeline,
         clock: Callable[[], float] = time.monotonic,
+        *,
+        for_others: bool = False,
     ) -> None:
         self.sessions: dict[bytes, Session] = {}
         self.preview = LivePreview(renderer, pipeline, self, clock)
@@ -73,7 +76,9 @@ class Service:
         self.planner = Planner(
             self.preview.state, self.preview.painter, self.sessions, self.send, self.sketches.ask
         )
-        self.jobs = Jobs(self.preview.state, job_pipeline, self.request_planes, self.deliver)
+        self.jobs = Jobs(
+            self.preview.state, job_pipeline, self.request_planes, self.deliver, for_others
+        )
         self._transport = transport
         self._clock = clock
         self._began = clock()
