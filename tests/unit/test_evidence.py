@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parents[1]
-PAGES = [TESTS.parent / "docs" / "research" / f"{name}.md" for name in ("attacks", "inputs")]
+RESEARCH = TESTS.parent / "docs" / "research"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_every_row_names_a_test(page: Path) -> None:
-    rows = [row for row in page.read_text().splitlines() if re.match(r"\| [A-Z]?\d+ \|", row)]
-    assert len(rows) >= 50
+@pytest.mark.parametrize(("page", "fewest"), [("attacks", 50), ("inputs", 50), ("systems", 30)])
+def test_every_row_names_a_test(page: str, fewest: int) -> None:
+    text = (RESEARCH / f"{page}.md").read_text()
+    rows = [row for row in text.splitlines() if re.match(r"\| [A-Z]?\d+ \|", row)]
+    assert len(rows) >= fewest
     for row in rows:
         named = re.findall(r"`([\w/]+)::(\w+)`", row.split("|")[-2])
         assert named, row
