@@ -4,8 +4,9 @@
     python scripts/pictures.py depth.jpg          # only this one, and those that come with it
     python scripts/pictures.py --list             # how each picture is made
 
-Some need what is not part of the repository: DRAWINGS names a folder with kid.png, dino.png and
-cat.png (see docs/licences.md), MODELS one with meshes (see docs/research/dataset.md).
+Some need what is not part of the repository: DRAWINGS names a folder with kid.png, dino.png,
+cat.png and others (see docs/licences.md), ANIMATIONS one with the folders kid and squirrel, MODELS
+one with meshes (see docs/research/dataset.md).
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from pathlib import Path
 from PIL import Image
 
 from lampblack.atomic import atomic_file
+from lampblack.scene import Ambient, AreaLight, Canvas, Floor, LightKey, Scene, encode_scene
 
 ROOT = Path(__file__).parents[1]
 IMAGES = ROOT / "docs" / "images"
@@ -29,6 +31,8 @@ LOOKS = ("smooth", "soft-cel", "hard-cel", "two-tone-rim")
 RIGS = {"key": "#f4efe6", "sunset": "#f4cba7", "moon": "#3f4a80"}
 """Each rig with the paper that its pictures lie on."""
 OTHERS = ("kid", "dino", "cat")
+COLOURS = 128
+"""Of a moving picture."""
 
 
 def lampblack(*words: object) -> None:
@@ -98,6 +102,76 @@ def looks_of_others(work: Path) -> None:
         looks_of(f"looks-{name}.jpg", Path(os.environ["DRAWINGS"]) / f"{name}.png", work / name)
 
 
+def moving(name: str, work: Path) -> None:
+    """An animation as drawn, and in a warm light that moves from left to right."""
+    drawn = sorted((Path(os.environ["ANIMATIONS"]) / name).glob("*.png"))
+    width, height = Image.open(drawn[0]).size
+    unit, last = max(width, height) / 2, len(drawn)
+    keys = tuple(
+        LightKey(frame, x * width, 0.25 * height, 0.9 * unit, 0.4 * unit, "#ffe3b8", 3.2)
+        for frame, x in ((1, -0.1), (last, 1.1))
+    )
+    first = keys[0]
+    warm = AreaLight(first.x, first.y, first.z, first.size, first.colour, first.power, keys=keys)
+    cold = AreaLight(0.9 * width, 0.3 * height, -0.4 * unit, 0.5 * unit, "#8db7ff", 1.5)
+    floor = Floor(max(floor_below(path) for path in drawn))
+    ambient = Ambient("#dfe6ff", 0.35)
+    scene = Scene(Canvas(width, height), (warm, cold), ambient=ambient, floor=floor)
+    (work / "scene.json").write_bytes(encode_scene(scene))
+    light = ("--scene", work / "scene.json", "--quality", "medium")
+    lampblack("render", drawn[0].parent, "-o", work / "lit", *light)
+    pairs = []
+    for path in drawn:
+        left, right = (opened(p, side=350) for p in (path, work / "lit" / path.name))
+        pair = Image.new("RGB", (2 * left.width, left.height))
+        pair.paste(left, (0, 0))
+        pair.paste(right, (left.width, 0))
+        pairs.append(pair)
+    palette = pairs[0].quantize(COLOURS)
+    first_picture, *rest = (pair.quantize(palette=palette) for pair in pairs)
+    with atomic_file(IMAGES / f"{name}.gif") as file:
+        first_picture.save(file, "GIF", save_all=True, append_images=rest, duration=83, loop=0)
+
+
+def animations(work: Path) -> None:
+    """Both animations of the gallery."""
+    for name in ("kid", "squirrel"):
+        (work / name).mkdir()
+        moving(name, work / name)
+
+
+def normals_of_drawings(work: Path) -> None:
+    """Every drawing with its normals, and in two lights; two drawings in a row."""
+    cells = []
+    for drawing in sorted(Path(os.environ["DRAWINGS"]).glob("*.png")):
+        normals = work / f"{drawing.stem}.normals.png"
+        lampblack("normals", drawing, "-o", normals)
+        made = [drawing, normals]
+        for rig in ("key", "under-light"):
+            lampblack("render", drawing, "-o", work / rig, "--rig", rig, "--quality", "low")
+            made.append(work / rig / drawing.name)
+        cells.append([in_a_square(opened(path, side=130)) for path in made])
+    blank = [in_a_square(Image.new("RGB", (1, 1), "#ffffff"))] * 4
+    cells += [blank] * (len(cells) % 2)
+    save("normals-drawings.jpg", [a + b for a, b in zip(cells[::2], cells[1::2], strict=True)])
+
+
+def in_a_square(picture: Image.Image) -> Image.Image:
+    """A picture in the middle of a white square."""
+    side = 134
+    square = Image.new("RGB", (side, side), "#ffffff")
+    square.paste(picture, ((side - picture.width) // 2, (side - picture.height) // 2))
+    return square
+
+
+def sheet_of_creatures(work: Path) -> None:
+    """Random creatures alone."""
+    (work / "none").mkdir()
+    words = ("--models", work / "none", "-o", work / "dataset", "--creatures", 28, "--hands", 1)
+    lampblack("dataset", "build", *words)
+    save("creatures.jpg", [[opened(work / "dataset" / "sheet.png", side=1064)]])
+
+
 def sheet_of_normals(work: Path) -> None:
     """One side of each test model."""
     words = ("--models", os.environ["MODELS"], "--split", "test", "--sheet", work / "sheet.png")
@@ -132,7 +206,8 @@ class Recipe:
     """A variable of the environment."""
 
 
-WINDOW = ("lit", "menu", "floor", "glossy", "normals", "keys")
+WINDOW = ("lit", "menu", "floor", "glossy", "normals", "keys", "depth")
+RECORDED = ("pencil2d-drawing.gif", "pencil2d-drag.gif")
 WINDOW_SIZE = (1434, 990)
 """Of the window with its frame on a screenshot, pixels."""
 RECIPES = (
@@ -158,7 +233,7 @@ RECIPES = (
         "DRAWINGS",
     ),
     Recipe(
-        (*(f"pencil2d-{name}.png" for name in WINDOW), "pencil2d-drawing.gif"),
+        (*(f"pencil2d-{name}.png" for name in WINDOW), *RECORDED),
         lambda _: run(sys.executable, "tests/record_window.py", IMAGES),
         "tests/record_window.py, in the real Pencil2D",
     ),
@@ -169,21 +244,27 @@ RECIPES = (
         "examples/drag_light.py",
     ),
     Recipe(
+        ("kid.gif", "squirrel.gif"),
+        animations,
+        "lampblack render, of an animation in ANIMATIONS",
+        "ANIMATIONS",
+    ),
+    Recipe(
+        ("normals-drawings.jpg",),
+        normals_of_drawings,
+        "lampblack normals and render, of the drawings in DRAWINGS",
+        "DRAWINGS",
+    ),
+    Recipe(("creatures.jpg",), sheet_of_creatures, "lampblack dataset build --creatures"),
+    Recipe(
         ("normals-test.jpg",), sheet_of_normals, "lampblack evaluate --sheet, of MODELS", "MODELS"
     ),
     Recipe(("dataset.jpg",), sheet_of_the_data_set, "lampblack dataset build, of MODELS", "MODELS"),
 )
 BY_HAND = {
     "corrections.jpg": "corrections in the view Depth; the values were not kept",
-    "creatures.jpg": "random creatures of a data set; the seed was not kept",
-    "kid.gif": "lampblack render --preview; the scene with its keys was not kept",
-    "normals-curve.png": "curve.png of a run of lampblack train that is gone",
-    "normals-drawings.jpg": "drawings with normals and two lights; the script was not kept",
     "painted-light.png": "strokes on a layer Light; the strokes were not kept",
-    "pencil2d-depth.png": "a screenshot of the view Depth, taken by hand",
-    "pencil2d-drag.gif": "a drag that was recorded in Pencil2D by hand",
     "pencil2d-panel.png": "a screenshot of a screen of 1366 x 768, taken by hand",
-    "squirrel.gif": "lampblack render --preview; the scene with its keys was not kept",
 }
 """Pictures that no command makes yet."""
 
