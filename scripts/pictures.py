@@ -164,14 +164,6 @@ def in_a_square(picture: Image.Image) -> Image.Image:
     return square
 
 
-def sheet_of_creatures(work: Path) -> None:
-    """Random creatures alone."""
-    (work / "none").mkdir()
-    words = ("--models", work / "none", "-o", work / "dataset", "--creatures", 28, "--hands", 1)
-    lampblack("dataset", "build", *words)
-    save("creatures.jpg", [[opened(work / "dataset" / "sheet.png", side=1064)]])
-
-
 def sheet_of_normals(work: Path) -> None:
     """One side of each test model."""
     words = ("--models", os.environ["MODELS"], "--split", "test", "--sheet", work / "sheet.png")
@@ -255,7 +247,6 @@ RECIPES = (
         "lampblack normals and render, of the drawings in DRAWINGS",
         "DRAWINGS",
     ),
-    Recipe(("creatures.jpg",), sheet_of_creatures, "lampblack dataset build --creatures"),
     Recipe(
         ("normals-test.jpg",), sheet_of_normals, "lampblack evaluate --sheet, of MODELS", "MODELS"
     ),
@@ -263,6 +254,7 @@ RECIPES = (
 )
 BY_HAND = {
     "corrections.jpg": "corrections in the view Depth; the values were not kept",
+    "creatures.jpg": "random creatures of a data set; the seed was not kept",
     "painted-light.png": "strokes on a layer Light; the strokes were not kept",
     "pencil2d-panel.png": "a screenshot of a screen of 1366 x 768, taken by hand",
 }
