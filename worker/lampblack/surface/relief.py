@@ -139,8 +139,9 @@ def _closed(
             level = own_back[own & (number >= 0)]
             back[vertex, 2] = np.minimum(level, front[vertex, 2] - THICKNESS)
     mesh = _Grid(nodes)
-    seen = hidden = mesh.triangles()
-    if parts is not None:
+    if parts is None:
+        seen = hidden = mesh.triangles()
+    else:
         level, behind = (np.append(points[:, 2], 0)[nodes.number] for points in (front, back))
         column, row = front[:, :2].astype(np.intp).T
         part = np.append(parts[row.clip(0, len(parts) - 1), column.clip(0, len(parts[0]) - 1)], -1)
