@@ -7,12 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lampblack.choices import DeviceKind
 from lampblack.colour import hex_linear
 from lampblack.composite import composite
 from lampblack.composite.byte_layers import byte_layers_of
 from lampblack.composite.shading import needs_ambient, needs_each_light
 from lampblack.drawing.decompose import decompose_drawing
 from lampblack.materials import MaterialTable
+from lampblack.render.light_pass_cache import LightPassCache
 from lampblack.render.passes import DARK, LightPasses, Passes
 from lampblack.render.request import RenderRequest, as_mixture, mixable
 from lampblack.scene import Ambient, AreaLight, Canvas, Floor, Look, Material, Scene
@@ -117,3 +119,33 @@ def test_only_light_that_is_seen_is_traced() -> None:
     assert apart.ambient
     assert apart.mixed_with is not None
     assert apart.mixed_with.strength == 0
+
+
+def test_the_ambient_light_beside_a_mixture_is_traced_once() -> None:
+    cache, drawing, scene = LightPassCache(), object(), lit()
+    asked: list[bool] = []
+
+    def shown(
+        scene: Scene, number: int, device: DeviceKind = "cpu", of: object = drawing
+    ) -> Passes:
+        def trace(ambient: bool) -> Passes:
+            asked.append(ambient)
+            light = random_light(number) if ambient else DARK
+            return Passes((), light, mixture=random_light(100 + number), device=device)
+
+        return cache.beside_mixture(of, scene, trace)
+
+    def is_light(found: Passes, number: int) -> bool:
+        return np.array_equal(found.ambient.diffuse, random_light(number).diffuse)
+
+    moved = replace(scene, lights=(LIGHTS[1], LIGHTS[0]))
+    assert is_light(shown(scene, 1), 1)
+    assert is_light(shown(moved, 2), 1)
+    assert asked == [True, False]
+    assert is_light(shown(replace(moved, floor=None), 3), 3)
+    assert is_light(shown(replace(moved, floor=None), 4, of=object()), 4)
+    assert asked == [True, False, True, True]
+    # One picture has the light of one device.
+    assert is_light(shown(scene, 5, of=drawing), 5)
+    assert is_light(shown(moved, 6, "cuda"), 6)
+    assert asked[4:] == [True, False, True]

@@ -166,8 +166,14 @@ class Pipeline:
         if mixed and mixable(scene.lights) and not needs_each_light(scene, materials):
             apart = needs_ambient(scene, materials)
             mixture = as_mixture(request(scene, glows), scene, with_ambient=not apart)
-            if len(mixture.lights) > 1 or not apart:  # one light is its own mixture
+            if not apart:
                 return self.renderer.render(mixture)
+            if len(mixture.lights) > 1:  # one light is its own mixture
+                return self._light_passes.beside_mixture(
+                    prepared.layers,
+                    scene,
+                    lambda ambient: self.renderer.render(replace(mixture, ambient=ambient)),
+                )
         return self._light_passes.complete(prepared.layers, scene, trace, glows)
 
     def render(

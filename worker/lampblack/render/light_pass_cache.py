@@ -32,9 +32,7 @@ class LightPassCache:
         """The passes of ``scene`` on ``drawing``, which is compared by identity. ``trace`` is
         called for the lights that shine and are not in the cache; those that do not shine keep
         their light for later, or are dark."""
-        key = scene.render_key()
-        if drawing is not self._drawing or key != self._key or self._ambient is None:
-            self._lights, self._ambient, self._glows = {}, None, {}
+        self._forget_others(drawing, scene)
         shown = zip(scene.lights, shining(scene.lights), strict=True)
         missing = {light.geometry: light for light, shines in shown if shines}
         missing = {where: light for where, light in missing.items() if where not in self._lights}
@@ -51,7 +49,6 @@ class LightPassCache:
             self._lights |= dict(zip(missing, found.lights, strict=True))
             self._ambient = self._ambient or found.ambient
             self._glows |= {glow: getattr(found, glow[0]) for glow in dark}
-        self._drawing, self._key = drawing, key
         places = [light.geometry for light in scene.lights]
         self._lights = {where: self._lights[where] for where in places if where in self._lights}
         self._glows = {glow: self._glows[glow] for glow in wanted}
@@ -61,3 +58,23 @@ class LightPassCache:
             **{glow[0]: self._glows[glow] for glow in wanted},
             device=self._device,
         )
+
+    def beside_mixture(
+        self, drawing: object, scene: Scene, trace: Callable[[bool], Passes]
+    ) -> Passes:
+        """The passes of ``scene`` with all its lights in one mixture, and its ambient light on its
+        own. ``trace`` is told whether to trace the ambient light too; else it is in the cache."""
+        self._forget_others(drawing, scene)
+        found = trace(self._ambient is None)
+        if self._ambient is not None and found.device != self._device:
+            found, self._ambient = trace(True), None  # one picture has the light of one device
+        if self._ambient is None:
+            self._lights, self._glows = {}, {}
+            self._ambient, self._device = found.ambient, found.device
+        return replace(found, ambient=self._ambient)
+
+    def _forget_others(self, drawing: object, scene: Scene) -> None:
+        key = scene.render_key()
+        if drawing is not self._drawing or key != self._key or self._ambient is None:
+            self._lights, self._ambient, self._glows = {}, None, {}
+        self._drawing, self._key = drawing, key
