@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
 import threading
+import time
 from collections.abc import Generator
 from contextlib import closing
 
@@ -60,3 +64,33 @@ def test_an_early_end_cuts_short_what_is_being_made_and_closes_every_stage() -> 
     assert next(stream) == 0
     stream.close()
     assert closed == ["second", "first"]
+
+
+COMMAND = """
+import time
+from lampblack.cli.console import for_people
+from lampblack.finals.prefetch import prefetch
+
+def items():
+    yield 0
+    time.sleep(2)
+    yield 1
+
+with for_people():
+    for item in prefetch(items()):
+        print(item, flush=True)
+"""
+
+
+def test_a_command_that_is_told_twice_to_end_says_nothing() -> None:
+    """As one that make runs: the signal reaches both, and make passes it on."""
+    command = [sys.executable, "-c", COMMAND]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"0\n"
+        process.terminate()
+        time.sleep(0.5)
+        process.terminate()
+        _, said = process.communicate(timeout=60)
+    assert said == b""
+    assert process.returncode == 128 + signal.SIGTERM

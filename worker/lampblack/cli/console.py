@@ -67,7 +67,12 @@ def _warning_printer() -> Callable[..., None]:
     return print_warning
 
 
+_ENDING = {signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)}
+
+
 def _terminate(number: int, frame: FrameType | None) -> NoReturn:
+    for each in _ENDING:  # make passes on what its whole group was sent: the end is not to be ended
+        signal.signal(each, signal.SIG_IGN)
     raise SystemExit(128 + number)
 
 
@@ -78,7 +83,7 @@ def for_people() -> Iterator[None]:
     SIGTERM and a closed terminal act like Ctrl-C, so that no incomplete file and no child process
     remain.
     """
-    for number in {signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)}:
+    for number in _ENDING:
         signal.signal(number, _terminate)
     warnings.simplefilter("ignore")
     warnings.simplefilter("always", LampblackWarning)
