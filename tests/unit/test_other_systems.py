@@ -142,6 +142,13 @@ with only_admitted(context, folder / "admitted"):
     router.close()
 context.term()
 """
+DOCTOR = """
+from lampblack.cli import doctor
+from lampblack.cli.app import app
+for check in ("_temporary_folder", "_network", "_cards", "_cycles", "_live_preview"):
+    setattr(doctor, check, lambda: "not tried")
+app(["doctor"], standalone_mode=False)
+"""
 
 
 def faked(system: str, program: str) -> str:
@@ -164,3 +171,10 @@ def test_the_worker_and_the_command_line_can_be_imported(system: str) -> None:
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_a_worker_talks_to_other_machines(system: str) -> None:
     assert "woken [[b'hello']]" in faked(system, FAKE + TALK)
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_doctor_tells_of_the_machine(system: str) -> None:
+    (machine,) = re.findall(r"^machine: .*", faked(system, FAKE + DOCTOR), re.MULTILINE)
+    assert re.search(r", \d+ cores", machine)
+    assert machine.endswith(" GiB") == (system != "win32"), "Windows has no sysconf"

@@ -15,7 +15,7 @@ import typer
 
 from .. import __version__
 from ..errors import LampblackError
-from ..processors import usable_processors
+from ..processors import memory_bytes, usable_processors
 from .console import EXIT_FAILED, print_error
 
 if TYPE_CHECKING:
@@ -57,8 +57,10 @@ def doctor() -> None:
 
 
 def _machine() -> str:
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return f"{platform.platform()}, {usable_processors()} cores, {memory:.0f} GiB"
+    told = [platform.platform(), f"{usable_processors()} cores"]
+    if memory := memory_bytes():
+        told.append(f"{memory / 2**30:.0f} GiB")
+    return ", ".join(told)
 
 
 def _temporary_folder() -> str:
