@@ -134,9 +134,9 @@ plugin:
 docs:
 	scripts/site.sh
 
-# The pictures of the documentation; PICTURES="depth.jpg ..." for some. scripts/pictures.py says how each is made.
+# The pictures of the documentation; PICTURES="depth.jpg ..." for some. scripts/pictures says how each is made.
 pictures: test-environment
-	$(BIN)/python scripts/pictures.py $(PICTURES)
+	$(BIN)/python scripts/pictures $(PICTURES)
 
 clean:
 	rm -rf .venv out build .pytest_cache .mypy_cache .ruff_cache

@@ -1,15 +1,15 @@
 """Take the manual's pictures of the real Pencil2D, and record a dragged light, and strokes in it.
 
-python tests/record_window.py docs/images
+python tests/record_window.py docs/images          # all
+python tests/record_window.py docs/images depth    # one of PARTS
 """
 
 from __future__ import annotations
 
 import math
-import shutil
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 
@@ -20,7 +20,6 @@ from lampblack.atomic import atomic_file
 from support.lamp import Canvas, drag_light, light_up, project_in, settled
 from support.window import Display, Pencil2D, missing, pencil2d, wait_until
 
-SIZE = (1240, 860)
 VIEW = "lampblack.panel.view."
 FUR = "#4f8fb3"
 PART = (170.0, 250.0, 380.0, 380.0)
@@ -178,31 +177,38 @@ def record_drawing(window: Pencil2D, folder: Path) -> None:
     write_gif(folder / "pencil2d-drawing.gif", shown)
 
 
-def main(target: Path) -> int:
+def take_panel(window: Pencil2D, folder: Path) -> None:
+    """On a small screen, in two tones."""
+    light_up(window)
+    window.click("lampblack.panel.look.hard-cel")
+    settled(window)
+    take(window, folder, "panel")
+
+
+SIZE, SMALL = (1240, 860), (1366, 748)
+"""Of the window without its frame."""
+PARTS = {
+    "drawing": (record_drawing, SIZE),
+    "floor": (take_light_and_floor, SIZE),
+    "keys": (take_keys, SIZE),
+    "depth": (take_depth, SIZE),
+    "drag": (record_drag, SIZE),
+    "panel": (take_panel, SMALL),
+}
+
+
+def main(target: Path, wanted: Sequence[str]) -> int:
     if missing():
         sys.stderr.write(f"missing: {missing()}\n")
         return 1
-    support.window.WINDOW = SIZE
-    with tempfile.TemporaryDirectory() as name, closing(Display(Path(name))) as display:
-        folder = Path(name)
-        projects = [folder / f"{number}" for number in range(5)]
-        for project in projects:
-            project.mkdir()
-            shutil.move(project_in(folder), project / "walk.pclx")
-        opened = [project / "walk.pclx" for project in projects]
-        with pencil2d(display, folder / "window", opened[0]) as window:
-            record_drawing(window, target)
-            window.set("lampblack.keep_light", "checked", False)
-            window.open(opened[1])
-            take_light_and_floor(window, target)
-            window.open(opened[2])
-            take_keys(window, target)
-            window.open(opened[3])
-            take_depth(window, target)
-            window.open(opened[4])
-            record_drag(window, target)
+    for part in wanted or PARTS:
+        make, support.window.WINDOW = PARTS[part]
+        with tempfile.TemporaryDirectory() as name, closing(Display(Path(name))) as display:
+            folder = Path(name)
+            with pencil2d(display, folder, project_in(folder)) as window:
+                make(window, target)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), sys.argv[2:]))

@@ -77,6 +77,12 @@ def test_random_creatures_are_the_same_every_time(models: Path, tmp_path: Path) 
     assert np.linalg.norm(high - low) == pytest.approx(2, abs=1e-4)
 
 
+def test_creatures_need_no_models(tmp_path: Path) -> None:
+    assert build_dataset(None, tmp_path, None, replace(OPTIONS, creatures=2)) == 2
+    with pytest.raises(LampblackError, match="nothing to draw"):
+        build_dataset(None, tmp_path, None, OPTIONS)
+
+
 def test_random_creatures_have_the_normals_of_their_surface() -> None:
     for seed in range(8):
         model = creature("a", np.random.default_rng(seed))

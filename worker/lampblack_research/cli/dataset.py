@@ -18,12 +18,15 @@ from ..dataset.viewpoints import PAPER_VIEWPOINTS
 
 
 def build(
-    models: Annotated[
-        Path, typer.Option("--models", metavar="DIR", help="Folder of meshes to draw.")
-    ],
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the data set.")
     ],
+    models: Annotated[
+        Path | None,
+        typer.Option(
+            "--models", metavar="DIR", help="Folder of meshes to draw. Without it, only creatures."
+        ),
+    ] = None,
     split: Annotated[
         str, typer.Option(help="Meshes to draw: a part of split.csv, or all for every mesh.")
     ] = "all",

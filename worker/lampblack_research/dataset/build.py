@@ -80,7 +80,7 @@ def entry_path(output: Path, model: Path, index: int) -> Path:
 
 
 def build_dataset(
-    models: Path,
+    models: Path | None,
     output: Path,
     split: str | None,
     options: DatasetOptions,
@@ -89,15 +89,18 @@ def build_dataset(
     """Write the entries that are missing; return how many there are in all.
 
     The same models, options and seed give the same data set, with any number of workers and after
-    any interruption. A view that shows nothing is left out.
+    any interruption. A view that shows nothing is left out. ``models`` may be None where creatures
+    are asked for.
 
     Raises:
-        LampblackError: no models. OutputError: ``output`` cannot be written.
+        LampblackError: nothing to draw. OutputError: ``output`` cannot be written.
 
     Warns:
         LampblackWarning: models cannot be used and are left out; one warning for each.
     """
-    paths = find_models(models, split)
+    if models is None and not options.creatures:
+        raise LampblackError("There is nothing to draw.", "Name a folder with --models.")
+    paths = find_models(models, split) if models else []
     wanted = list(entries(paths, options.views))
     wanted += [(Path(creatures.SOURCE) / f"{n:04d}", 0) for n in range(options.creatures)]
     for folder in {entry_path(output, path, 0).parent for path, _ in wanted}:
