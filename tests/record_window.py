@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
 import support.window
@@ -24,17 +25,19 @@ VIEW = "lampblack.panel.view."
 FUR = "#4f8fb3"
 PART = (170.0, 250.0, 380.0, 380.0)
 """What is recorded of the canvas: x, y, width, height."""
-SIDE, COLOURS = 340, 192
+SIDE, COLOURS = 340, 255
+OCTREE = Image.Quantize.FASTOCTREE
+"""Keeps small patches of other colours, such as the lantern."""
 EVERY = 4
 """Moves of the pen from one picture to the next."""
 MOVE_MS, PAUSE_MS, LIT_MS = 60, 300, 2500
 
-WHOLE = (0.0, 60.0, 640.0, 580.0)
-DRAGGED = (480, 435)
+WHOLE = (0.0, 50.0, 640.0, 620.0)
+DRAGGED = (480, 465)
 MOVES, FOLLOW_S, DRAG_MS = 18, 0.4, 80
 """Steps of the dragged light, seconds that each is given to be lit, and how long it is shown."""
-SCARF = (382.0, 430.0)
-"""On the edge of the scarf on the belly; canvas pixels."""
+SCARF = (335.0, 430.0)
+"""Near the edge of the scarf on the belly; canvas pixels."""
 
 Place = tuple[float, float]
 
@@ -95,7 +98,10 @@ def take_depth(window: Pencil2D, folder: Path) -> None:
     light_up(window)
     window.click(VIEW + "depth")
     settled(window)
-    window.click_at(*Canvas(window).screen(*SCARF))
+    places = [place for cut in window.value("lampblack", "cutPlaces") for place in cut]
+    edge = min(places, key=lambda place: math.dist(place, SCARF))
+    window.click_at(*Canvas(window).screen(*edge))
+    wait_until(lambda: not window.value("lampblack", "settled"), "another surface")
     settled(window)
     take(window, folder, "depth")
     window.click(VIEW + "lit")
@@ -124,7 +130,8 @@ def around(share: float) -> Place:
 
 def write_gif(path: Path, shown: list[tuple[Image.Image, int]]) -> None:
     """Write pictures, each with the milliseconds that it is shown."""
-    palette = shown[-1][0].quantize(COLOURS)
+    few = [shown[index * (len(shown) - 1) // 4][0] for index in range(5)]
+    palette = Image.fromarray(np.concatenate(few)).quantize(COLOURS, OCTREE)
     first, *others = (
         picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture, _ in shown
     )

@@ -6,6 +6,7 @@ import os
 import zipfile
 from pathlib import Path
 
+import numpy as np
 from PIL import Image, ImageDraw
 from sheets import IMAGES, SCENE, STILL, lampblack, opened, save
 
@@ -25,8 +26,8 @@ LOOKS = ("smooth", "soft-cel", "hard-cel", "two-tone-rim")
 RIGS = {"key": "#f4efe6", "sunset": "#f4cba7", "moon": "#3f4a80"}
 """Each rig with the paper that its pictures lie on."""
 OTHERS = ("kid", "dino", "cat")
-COLOURS = 128
-"""Of a moving picture."""
+COLOURS, OCTREE = 255, Image.Quantize.FASTOCTREE
+"""Of a moving picture; an octree keeps small patches of other colours."""
 PAINT = (
     ("#ffd27a", 34, ((400, 640), (420, 690), (470, 730), (540, 750))),
     ("#ffd27a", 24, ((560, 560), (610, 580), (650, 625))),
@@ -97,7 +98,8 @@ def moving(name: str, work: Path) -> None:
         pair.paste(left, (0, 0))
         pair.paste(right, (left.width, 0))
         pairs.append(pair)
-    palette = pairs[0].quantize(COLOURS)
+    few = [pairs[index * (last - 1) // 4] for index in range(5)]
+    palette = Image.fromarray(np.concatenate(few)).quantize(COLOURS, OCTREE)
     first_picture, *rest = (pair.quantize(palette=palette) for pair in pairs)
     with atomic_file(IMAGES / f"{name}.gif") as file:
         first_picture.save(file, "GIF", save_all=True, append_images=rest, duration=83, loop=0)
