@@ -62,8 +62,7 @@ exec 9>"$ROOTS/$suite.lock"
 flock 9
 if [ ! -e "$root.complete" ]; then
     rm -rf --one-file-system "$root"
-    debootstrap --variant=minbase --include=ca-certificates,make,$python,$python-venv \
-        "$suite" "$root" "$DEBIAN_MIRROR"
+    debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" "$DEBIAN_MIRROR"
     # A mirror may lag behind, and the Release file of sid is valid for a week only.
     echo 'Acquire::Check-Valid-Until "false";' >"$root/etc/apt/apt.conf.d/80lampblack"
     # The root can be made again: its packages need not wait for the disk.
@@ -72,6 +71,8 @@ if [ ! -e "$root.complete" ]; then
     touch "$root/etc/resolv.conf"
     mount_all
     in_root apt-get update
+    # By apt: debootstrap does not find what other packages provide, as Debian 12's venv needs.
+    in_root apt-get install -y --no-install-recommends make "$python" "$python-venv"
     touch "$root.complete"
 else
     mkdir -p "$venv"
