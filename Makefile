@@ -81,7 +81,7 @@ test-slow: test
 test-chaos: build-dev
 	LAMPBLACK_CHAOS_MINUTES=60 $(BIN)/pytest -m slow -o junit_family=xunit1 --junitxml=build/chaos.xml tests/render/test_chaos.py
 
-IN_PENCIL2D = lampblack lampblack-window lampblackprobe host_gates host_view_and_camera host_unseen_dialogs host_in_pencil2d
+IN_PENCIL2D = lampblack lampblack-window lampblackprobe host_gates host_window_changes host_view_and_camera host_unseen_dialogs host_in_pencil2d
 
 CPP = $$(git ls-files 'pencil2d_plugin/*.h' 'pencil2d_plugin/*.cpp' 'tests/plugin/*.h' 'tests/plugin/*.cpp')
 
