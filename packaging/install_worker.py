@@ -147,7 +147,7 @@ def plan(source: Source, target: Target) -> None:
         version=source.version,
         folder=str(target.folder),
         download=download,
-        disk=source.stated("installed") + download,
+        disk=source.stated("installed"),
     )
 
 

@@ -61,7 +61,7 @@ def source(folder: Path, version: str = "9.0") -> tuple[Path, Path]:
     wheel(shipped, "lampblack", version, SICK)
     needed = wheel(wheels, "needed", "1.0", "", BLENDER, UNUSED)
     digest = hashlib.sha256(needed.read_bytes()).hexdigest()
-    sizes = "# bytes to download: 0\n# bytes installed: 1000\n"
+    sizes = "# bytes to download: 500\n# bytes installed: 1000\n"
     lock = f"{sizes}needed==1.0 \\\n  --hash=sha256:{digest}\n"
     (shipped / f"worker-python{HERE}.txt").write_text(lock)
     return shipped, wheels
@@ -94,6 +94,12 @@ def said(told: Sequence[dict[str, Any]], say: str) -> dict[str, Any]:
 
 def state(shipped: Path, target: Path) -> str:
     return str(said(call("plan", shipped, target)[1], "plan")["state"])
+
+
+def test_the_plan_tells_what_is_downloaded_and_what_stays_on_disk(tmp_path: Path) -> None:
+    shipped, _ = source(tmp_path)
+    plan = said(call("plan", shipped, tmp_path / "home")[1], "plan")
+    assert (plan["download"], plan["disk"]) == (500, 1000)
 
 
 def test_it_installs_updates_and_removes_in_a_folder_with_a_strange_name(tmp_path: Path) -> None:

@@ -33,7 +33,7 @@ class InstallCardTest : public QObject
         script.write(state);
         script.write(
             "\", \"version\": \"9.0\", \"folder\": \"/home/anna/lampblack\", \"download\": 546000000, "
-            "\"disk\": 2112000000}')\n say('{\"say\": \"done\"}')\nelse:\n ");
+            "\"disk\": 1532000000}')\n say('{\"say\": \"done\"}')\nelse:\n ");
         script.write(answers);
         script.write("\n");
         script.close();
@@ -56,8 +56,8 @@ private Q_SLOTS:
         QVERIFY(text("what").contains(QStringLiteral("version 9.0")));
         QVERIFY(text("how").contains(QStringLiteral("/home/anna/lampblack")));
         QVERIFY(text("how").contains(QStringLiteral("546")));
-        QVERIFY(text("how").contains(QStringLiteral("2.1 GB")) ||
-                text("how").contains(QStringLiteral("2,1 GB")));
+        QVERIFY(text("how").contains(QStringLiteral("1.5 GB")) ||
+                text("how").contains(QStringLiteral("1,5 GB")));
         QVERIFY(shows("install") && shows("folder") && !shows("cancel") && !shows("copy"));
         QSignalSpy installed(mCard.get(), &InstallCard::installed);
         find<QToolButton>("install")->click();
