@@ -3,7 +3,8 @@
     python tests/try_package.py dist/pencil2d-lampblack_*.deb [lampblack-wheels]     (as root)
 
 The lamp is chosen at a first start, its panel installs the renderer (from a folder of wheels, or
-from the package index), a light is dragged, and renderer and package are removed.
+from the package index), a light is dragged in Pencil2D and in ``lampblack-window``, and renderer
+and package are removed.
 Screenshots go to ``build/screenshots``.
 """
 
@@ -14,12 +15,18 @@ import os
 import subprocess
 import sys
 import tempfile
+from contextlib import closing
 from pathlib import Path
 
+from lampblack.drawing import save_picture
+from support.drawings import draw_ball
 from support.lamp import Canvas, brightness_of_sides, drag_light, keep, project_in, settled
+from support.own_window import OwnWindow
+from support.registration import luminance
 from support.window import Display, Pencil2D, missing, pencil2d, wait_until
 
 PACKAGE = "pencil2d-lampblack"
+OWN_WINDOW = Path("/usr/bin/lampblack-window")
 CARD = "lampblack.panel.install"
 SYSTEM = ("/etc", "/opt", "/usr", "/var")
 ITS_OWN = (
@@ -78,6 +85,17 @@ def light(window: Pencil2D) -> None:
     assert left_after < left_before - 0.03
 
 
+def light_in_own_window(window: OwnWindow) -> None:
+    def right() -> float:
+        return float(luminance(window.crop(160, 105, 20, 30)).mean())
+
+    window.drag_light(20, 110)
+    before = right()
+    window.drag_light(220, 110)
+    keep(window, "package own window")
+    assert right() > before + 0.03
+
+
 def try_package(package: Path, wheels: Path | None, folder: Path) -> None:
     before = system_files()
     subprocess.run(["dpkg", "-i", package], check=True)
@@ -89,6 +107,11 @@ def try_package(package: Path, wheels: Path | None, folder: Path) -> None:
             window.click("lampblackButton")
             install_renderer(window, wheels)
             light(window)
+        ball = folder / "ball.png"
+        save_picture(ball, draw_ball(240))
+        run = folder / "run"
+        with closing(OwnWindow(display, run, ball, program=OWN_WINDOW, python="")) as own:
+            light_in_own_window(own)
     finally:
         display.close()
     home = folder / "run" / "home"

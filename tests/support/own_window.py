@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +20,16 @@ class OwnWindow(Program):
 
     canvas = "lampblack::CanvasView"
 
-    def __init__(self, display: Display, folder: Path, drawing: Path) -> None:
-        super().__init__(display, folder, [str(PROGRAM), str(drawing)])
+    def __init__(
+        self,
+        display: Display,
+        folder: Path,
+        drawing: Path,
+        *,
+        program: Path = PROGRAM,
+        python: str = sys.executable,
+    ) -> None:
+        super().__init__(display, folder, [str(program), str(drawing)], python=python)
         self.take_window("Lampblack")
         self.wait_for(drawing)
 
