@@ -88,7 +88,7 @@ bool CameraSurvey::readSome()
 {
     const Idleness::Work work(mIdleness);
     const QSignalBlocker still(mTransport);
-    const UpdatesOff unseen({mParts.window});
+    const UpdatesOff unseen(mParts.window);
     const int rowBefore = mRows.currentRow();
     const int frameBefore = mTransport->currentFrame();
     bool isRead = false;

@@ -102,9 +102,7 @@ void FrameQueue::exportChunk(int first, int last, const QStringList& layers)
     ExportResult exported;
     {
         QVector<int> clicked;
-        const UpdatesOff updatesOff(
-            layers.isEmpty() ? QVector<QWidget*>()
-                             : QVector<QWidget*>{mParts.canvas, mParts.layerCells, mParts.trackCells});
+        const UpdatesOff updatesOff(layers.isEmpty() ? nullptr : mParts.window);
         if (!layers.isEmpty())
         {
             const QVector<bool> eyes = mRows.eyes(mLayers.size());

@@ -176,7 +176,7 @@ void LayerDelivery::importWhenIdle()
 QString LayerDelivery::replaceLayer(const QString& project)
 {
     const Idleness::Work work(mIdleness);
-    const UpdatesOff updatesOff({mParts.window});
+    const UpdatesOff updatesOff(mParts.window);
     const QStringList before = namesOf(mRows.read());
     const int currentBefore = mRows.currentRow();
     if (before.isEmpty() || currentBefore < 0)

@@ -61,24 +61,22 @@ QImage iconOf(const char* kind)
 
 } // namespace
 
-UpdatesOff::UpdatesOff(const QVector<QWidget*>& widgets)
+UpdatesOff::UpdatesOff(QWidget* window)
 {
-    for (QWidget* widget : widgets)
-    {
-        if (widget == nullptr || !widget->updatesEnabled())
-            continue;
-        widget->setUpdatesEnabled(false);
-        mWidgets.append(widget);
-    }
+    if (window == nullptr || !window->updatesEnabled())
+        return;
+    window->setUpdatesEnabled(false);
+    mWindow = window;
 }
 
 UpdatesOff::~UpdatesOff()
 {
-    for (const auto& widget : qAsConst(mWidgets))
-    {
-        if (widget != nullptr)
-            widget->setUpdatesEnabled(true);
-    }
+    if (mWindow == nullptr)
+        return;
+    mWindow->setUpdatesEnabled(true);
+    // Qt drops a request to paint that comes meanwhile, and waits for it ever after: the window would stand
+    // still until the mouse moves over it.
+    QCoreApplication::postEvent(mWindow, new QEvent(QEvent::UpdateRequest), Qt::LowEventPriority);
 }
 
 QImage LayerRows::renderRow(int row) const
@@ -230,7 +228,7 @@ Layer::Kind LayerRows::recogniseKind(const QImage& rowImage) const
 
 QVector<Layer> LayerRows::read() const
 {
-    const UpdatesOff updatesOff({mParts.window});
+    const UpdatesOff updatesOff(mParts.window);
     const int current = currentRow();
     if (current < 0)
         return {};

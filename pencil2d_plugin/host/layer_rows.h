@@ -38,16 +38,17 @@ private:
     Parts mParts;
 };
 
-/// While it exists, these widgets are not repainted.
+/// While it exists, the window is not repainted. Of a part of a window that alone is not repainted, nothing
+/// is left when what it lies on is.
 class UpdatesOff
 {
 public:
-    explicit UpdatesOff(const QVector<QWidget*>& widgets);
+    explicit UpdatesOff(QWidget* window);
     ~UpdatesOff();
     Q_DISABLE_COPY_MOVE(UpdatesOff)
 
 private:
-    QVector<QPointer<QWidget>> mWidgets;
+    QPointer<QWidget> mWindow;
 };
 
 } // namespace lampblack
