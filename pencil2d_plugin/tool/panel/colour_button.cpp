@@ -35,6 +35,13 @@ void ColourButton::choose(const QColor& colour)
         mDialog->setCurrentColor(QColor(colour.rgb()));
 }
 
+void ColourButton::closeDialog()
+{
+    if (mDialog)
+        mDialog->accept();
+    mDialog.clear();
+}
+
 void ColourButton::openDialog()
 {
     if (mDialog)

@@ -22,6 +22,8 @@ public:
     void setColour(const QColor& colour);
     /// Choose a colour in the dialog, if it is open.
     void choose(const QColor& colour);
+    /// Close the dialog, if it is open. What was chosen stays.
+    void closeDialog();
 
 Q_SIGNALS:
     void edited(const QColor& colour, int gesture);

@@ -102,6 +102,21 @@ LampPanel::LampPanel(Host& host, SceneDocument& document, QAction& surfaces, QAc
                 for (ColourButton* button : buttons)
                     button->choose(colour);
             });
+    // Cancel would give the colour of one project to a light of another.
+    connect(&host, &Host::projectOpened, this, &LampPanel::closeDialogs);
+    connect(&host, &Host::toolActivated, this,
+            [this](bool active)
+            {
+                if (!active)
+                    closeDialogs();
+            });
+}
+
+void LampPanel::closeDialogs()
+{
+    const auto buttons = findChildren<ColourButton*>();
+    for (ColourButton* button : buttons)
+        button->closeDialog();
 }
 
 void LampPanel::addHeader(const QFont& font)

@@ -55,6 +55,7 @@ private:
     void addHeader(const QFont& font);
     void placeHeader();
     void restoreSections(Host& host);
+    void closeDialogs();
 
     QButtonGroup* mViews;
     QLabel* mDepthHelp;

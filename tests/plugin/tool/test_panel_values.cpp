@@ -112,6 +112,28 @@ private Q_SLOTS:
         QCOMPARE(light().colour, QColor(Qt::white));
     }
 
+    void theColourDialogClosesWithTheLampAndWithTheProject_data()
+    {
+        QTest::addColumn<bool>("isOtherProject");
+        QTest::newRow("the lamp is put away") << false;
+        QTest::newRow("another project") << true;
+    }
+
+    void theColourDialogClosesWithTheLampAndWithTheProject()
+    {
+        QFETCH(bool, isOtherProject);
+        auto* button = find<ColourButton>("colour");
+        button->click();
+        Q_EMIT mHost->colourChosen(QColor(10, 20, 30));
+        QVERIFY(button->findChild<QColorDialog*>() != nullptr);
+        if (isOtherProject)
+            Q_EMIT mHost->projectOpened({});
+        else
+            Q_EMIT mHost->toolActivated(false);
+        QTRY_VERIFY(button->findChild<QColorDialog*>() == nullptr);
+        QCOMPARE(light().colour, QColor(10, 20, 30));
+    }
+
     void theColourDialogLeavesTheDrawingInSight()
     {
         QMainWindow window;
