@@ -119,7 +119,7 @@ void LitView::show()
     {
         mPatience.stop();
         showNothing();
-        mTool.setLit(true); // it is what the artist wants to see
+        setLit(true); // it is what the artist wants to see
         return;
     }
     const PreviewImage* cached = mPictures.object(frame);
@@ -138,7 +138,7 @@ void LitView::show()
         showPicture(*cached);
     else if (!stays)
         isEmpty = !showStandIn();
-    mTool.setLit(isLit || isEmpty);
+    setLit(isLit || isEmpty);
     if (isLit || isEmpty)
         mPatience.stop();
     else if (!mPatience.isActive())
@@ -212,6 +212,12 @@ void LitView::requestPicture()
     else
         mWorker.requestPreview(frame, *mTool.viewMode(), crop,
                                deviceSize(imageToWidget, *mHost.canvas(), crop));
+}
+
+void LitView::setLit(bool lit)
+{
+    mIsLit = lit;
+    mTool.setLit(lit);
 }
 
 void LitView::askAgain()

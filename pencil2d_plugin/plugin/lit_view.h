@@ -31,6 +31,9 @@ public:
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 
+    /// Whether the canvas shows the current frame's picture, if it is to show one.
+    bool isLit() const { return mIsLit; }
+
     /// Call after the scene was sent to the worker.
     void onSceneSent();
 
@@ -50,6 +53,7 @@ private:
     void showPicture(const PreviewImage& picture);
     bool showStandIn();
     void showNothing();
+    void setLit(bool lit);
     void askAgain();
     void forgetPictures();
     bool isShowing() const;
@@ -67,6 +71,7 @@ private:
     QCache<int, PreviewImage> mPictures; ///< by frame, cost in KiB
     int mShownFrame = 0;
     Shown mShown = Shown::Nothing;
+    bool mIsLit = true;
 };
 
 } // namespace lampblack

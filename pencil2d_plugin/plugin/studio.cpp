@@ -66,7 +66,7 @@ bool Studio::isSettled() const
     const std::optional<Show> mode = mTool ? mTool->viewMode() : std::nullopt;
     return mShownImage.converged && (!mode || mShownImage.show == *mode) &&
            mShownImage.frame == mHost.currentFrame() && mFeed && mFeed->isUpToDate(mShownImage.frame) &&
-           mWorker->isCurrent(mShownImage);
+           mView->isLit() && mWorker->isCurrent(mShownImage);
 }
 
 QVariantList Studio::lightPlaces() const
