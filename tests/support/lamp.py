@@ -66,9 +66,16 @@ def settled(window: Program) -> None:
     wait_until(lambda: window.value("lampblack", "settled"), "a converged picture", 120)
 
 
+def shows_light(window: Pencil2D) -> bool:
+    overlay = window.find("lampblack.overlay")["properties"]
+    return bool(overlay["showsPicture"] or overlay["showsStandIn"])
+
+
 def light_up(window: Pencil2D) -> None:
     window.click("lampblackButton")
     wait_until(lambda: window.value("lampblackButton", "checked"), "the lamp in use")
+    # The button is down a moment before: until then the picture of the project before may count.
+    wait_until(lambda: shows_light(window), "a shading")
     settled(window)
 
 

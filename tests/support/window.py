@@ -236,13 +236,19 @@ class Program:
 
     def click(self, name: str, button: int = 1) -> None:
         """Click in the middle of a widget, once it stands still: docks are laid out late."""
-        left, top, width, height = wait_until(lambda: self._resting_rect(name), name, 10)
+        left, top, width, height = self.resting_rect(name)
         self.click_at(left + width // 2, top + height // 2, button)
 
-    def _resting_rect(self, name: str) -> tuple[int, int, int, int] | None:
-        before = self.rect(name)
-        time.sleep(0.2)
-        return before if self.rect(name) == before else None
+    def resting_rect(self, name: str) -> tuple[int, int, int, int]:
+        """As ``rect``, once the widget stands still."""
+
+        def at_rest() -> tuple[int, int, int, int] | None:
+            before = self.rect(name)
+            time.sleep(0.2)
+            return before if self.rect(name) == before else None
+
+        place: tuple[int, int, int, int] = wait_until(at_rest, name, 10)
+        return place
 
     def click_at(self, x: float, y: float, button: int = 1) -> None:
         self.display.do("mousemove", "--sync", round(x), round(y), "click", button)
@@ -329,6 +335,7 @@ class Pencil2D(Program):
         self.click("pencilButton")
         self.ask_to_open(project)
         wait_until(lambda: self.value("lampblack", "project") == str(project), "the project")
+        self.trigger("actionReset_View")  # Pencil2D 0.7 keeps the view of the project before
 
     def ask_to_open(self, project: Path) -> None:
         """As a file manager would; the lamp stays in use."""

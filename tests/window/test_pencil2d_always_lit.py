@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from support.lamp import Canvas, keep, light_up, project_in, settled
+from support.lamp import Canvas, keep, light_up, project_in, settled, shows_light
 from support.registration import luminance
 from support.window import Pencil2D, SharedPencil2D, wait_until
 
@@ -54,11 +54,6 @@ def staying_lit(window: Pencil2D, plain: float, colour: str = FUR) -> Iterator[N
 
 def is_ready(window: Pencil2D) -> bool:
     return bool(window.value("lampblack.panel.worker", "text") == "Ready")
-
-
-def shows_light(window: Pencil2D) -> bool:
-    overlay = window.find("lampblack.overlay")["properties"]
-    return bool(overlay["showsPicture"] or overlay["showsStandIn"])
 
 
 @pytest.fixture

@@ -136,14 +136,15 @@ def test_the_colour_box_of_the_program_chooses_the_colour_of_a_light(window: Pen
     button = "lampblack.panel.colour"
     window.click(button)
     wait_until(lambda: window.find(button + ".dialog").get("seen"), "the dialog")
-    left, top, width, height = window.rect("ColorWheel")
+    left, top, width, height = window.resting_rect("ColorWheel")
     chosen = {"#ffffff"}
 
     def colour() -> str:
         return str(window.value(button, "accessibleDescription"))
 
     for share in (0.2, -0.2):  # of the wheel, from its middle: inside its square
-        window.click_at(left + round(width * (0.5 + share / 2)), top + height // 2)
+        across = share / 2 * min(width, height)
+        window.click_at(left + width / 2 + across, top + height / 2)
         wait_until(lambda: colour() not in chosen, "a colour of the colour box")
         chosen.add(colour())
     keep(window, "colour box of the program")
