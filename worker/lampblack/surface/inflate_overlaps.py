@@ -35,14 +35,14 @@ PRIOR = 10.0
 """The weight of the predicted depth is the square of this over the character's length: shapes
 smaller than a tenth of the character follow the normals. At 5, steps are lost; at 20, the surface
 bends."""
-GAIN = 1.35
+ORDER_BY_DEPTH = 2.0
+"""What is in front is decided by the predicted depth times this, plus the height of the normals."""
+GAIN = 1.5
 """Steps held by the predicted depth are too small by about this factor; at 2, more of them are
 too large."""
-LEAST, LARGEST = 0.03, 0.3
+LEAST, LARGEST = 0.05, 0.3
 """Limits of a step; shares of the length."""
-LEAST_HINTED = 0.03
-"""The same where the artist says what is in front: the prediction may say otherwise."""
-TAPER = 0.06
+TAPER = 0.04
 """A step falls to 0 over this distance from an end where its sides join; share of the length."""
 POOL = 0.01
 """Steps are averaged over this share of the length, either way along an occlusion."""
@@ -211,7 +211,8 @@ def _occlusions(small: _Small) -> tuple[list[Occlusion], list[Stroke]]:
         return [], []
     order = small.depth
     if small.votes is None:
-        order = order + inflate_direct(small.normals, small.mask, tolerance=ROUGH)
+        height = inflate_direct(small.normals, small.mask, tolerance=ROUGH)
+        order = np.float32(ORDER_BY_DEPTH) * order + height
     return (
         find_occlusions(
             strokes, small.ink, order, small.edge, small.mask, small.length, small.votes
@@ -243,8 +244,7 @@ def _steps(small: _Small, hints: Sequence[DepthHint]) -> list[tuple[Occlusion, F
             continue
         jumps = jumps_across(occlusion.points, occlusion.towards, held, small.mask, cuts)
         steps = GAIN * mean_along(jumps, np.isfinite(jumps), reach)
-        least = LEAST_HINTED if occlusion.hinted else LEAST
-        steps = np.clip(steps, least * small.length, LARGEST * small.length)
+        steps = np.clip(steps, LEAST * small.length, LARGEST * small.length)
         if occlusion.amount > 0:
             steps = np.full_like(steps, occlusion.amount * small.length)
         measured.append((occlusion, steps * _taper(occlusion, TAPER * small.length)))

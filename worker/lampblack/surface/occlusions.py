@@ -16,17 +16,16 @@ from numpy.typing import NDArray
 from ..choices import FrontSide
 from ..compiled import compiled
 from .cuts import Floats, across
-from .repeats import marks_among
+from .repeats import Repeats, repeats_among
 from .strokes import Stroke, mean_along
 
 EDGE = 0.45
 """A stroke is an occlusion where the network is this sure of one (best F1 on test views)."""
 EDGE_GOES_ON = 0.3
 """An occlusion found nearby goes on along its stroke where the network is this sure."""
-SURE = 0.43
-"""The least that it is sure on average over an occlusion: it half believes in marks."""
-SURE_OF_MARK = 0.72
-"""The same on a stroke that repeats as marks do (chosen on validation views)."""
+SURE = {Repeats.ALONE: 0.43, Repeats.BESIDE: 0.57, Repeats.REPEATED: 0.7}
+"""The least that it is sure on average over an occlusion: it half believes in marks, which repeat
+(chosen on validation views)."""
 STEP = 0.012
 """Step across a stroke from which on it is an occlusion, as a share of the character's length; at
 lower ones, borders of colours are cut."""
@@ -47,7 +46,7 @@ rough textures turn more."""
 STEADY_OVER = 0.02
 BESIDE = (0.008, 0.02)
 """How far beside the ink its two sides are compared; shares of the length."""
-POOL = 0.01
+POOL = 0.02
 """Steps are averaged over this share of the length, either way along a stroke."""
 WIDEST = 0.02
 """Half the width of the widest line; share of the length."""
@@ -104,7 +103,7 @@ def find_occlusions(
     beside = np.array(BESIDE, np.float32) * np.float32(length)
     widest = np.float32(WIDEST * length)
     long = [stroke for stroke in strokes if len(stroke.points) >= SHORTEST * length]
-    marks = marks_among(long, mask.shape, length)
+    repeats = repeats_among(long, mask.shape, length)
     sides = [across(stroke.points, "left") for stroke in long]
     compared = [
         _compare(stroke.points, left, ink, order, edge, mask, beside, widest)
@@ -112,8 +111,8 @@ def find_occlusions(
     ]
     widths = [width for _, _, _, width in compared]
     usual = float(np.median(np.concatenate(widths))) if widths else 0.0
-    for stroke, left, mark, (step, sure, known, width) in zip(
-        long, sides, marks, compared, strict=True
+    for stroke, left, repeat, (step, sure, known, width) in zip(
+        long, sides, repeats, compared, strict=True
     ):
         step, sure = (mean_along(a, known, reach, closed=stroke.closed) for a in (step, sure))
         every = np.ones(len(known), bool)
@@ -131,7 +130,7 @@ def find_occlusions(
             found += [
                 run
                 for run, sureness in _runs(stroke, start, goes_on, known, front, length, sure)
-                if votes is not None or sureness > (SURE_OF_MARK if mark else SURE)
+                if votes is not None or sureness > SURE[repeat]
             ]
     return [_to_the_outline(occlusion, mask, length) for occlusion in found]
 
