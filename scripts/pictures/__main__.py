@@ -67,11 +67,17 @@ IN_PENCIL2D = {
 """Each part of ``tests/record_window.py``, and what it makes."""
 WINDOW_SIZE = (1434, 990)
 """Of the window with its frame on a screenshot, pixels."""
+FIGURES = ROOT / "docs" / "data" / "scale.json"
 RECIPES = (
     Recipe(
         ("architecture.svg",),
         lambda _: run(sys.executable, "tests/architecture.py", IMAGES / "architecture.svg"),
         "tests/architecture.py, also by make schema",
+    ),
+    Recipe(
+        ("scale.svg",),
+        lambda _: run(sys.executable, "scripts/plot_scale.py", FIGURES, IMAGES / "scale.svg"),
+        "scripts/plot_scale.py, of lampblack bench scale --json > docs/data/scale.json",
     ),
     Recipe(
         ("lamplighter.png", "before-after-cel.jpg", "depth.jpg"),

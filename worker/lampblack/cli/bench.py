@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 
-Benchmark = Literal["inflate", "normals", "final", "relight", "animation"]
+Benchmark = Literal["inflate", "normals", "final", "relight", "animation", "scale"]
 
 
 def bench(
@@ -76,6 +76,13 @@ def bench(
         figures = bench_inflate(
             NormalPredictor().predict(taken.lines, taken.mask).normals, taken.mask
         )
+    elif what == "scale":
+        from ..bench.scale import bench_scale
+        from .console import progress_bar
+
+        with progress_bar() as bar:
+            task = bar.add_task("Measuring", total=1.0)
+            figures = bench_scale(picture, lambda share: bar.update(task, completed=share))
     elif what == "normals":
         from ..bench.normals import bench_normals
 
