@@ -164,7 +164,7 @@ def faked(system: str, program: str) -> str:
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_the_worker_and_the_command_line_can_be_imported(system: str) -> None:
     broken = faked(system, FAKE)
-    measuring = ("animation", "final", "memory", "relight") if system == "win32" else ()
+    measuring = ("animation", "final", "memory", "relight", "scale") if system == "win32" else ()
     assert re.findall(r"\('lampblack\.([\w.]+)'", broken) == [f"bench.{m}" for m in measuring]
 
 
