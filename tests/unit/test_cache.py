@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import os
+import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from lampblack.cache import ArrayCache, Arrays, digest
+import lampblack
+from lampblack.cache import ArrayCache, Arrays, digest, program_digest
 
+IGNORED = shutil.ignore_patterns("__pycache__")
+PRINT_DIGEST = "from lampblack.cache import program_digest; print(program_digest())"
 ONES = {"height": np.ones((2, 3), np.float32), "overlaps": np.zeros((0, 6), np.float32)}
 
 
@@ -120,3 +126,20 @@ def test_digest_tells_shapes_types_and_order_apart() -> None:
     names = [digest(a), digest(a.T), digest(a.astype(np.int32)), digest(a, 1), digest(1, a)]
     assert len(set(names)) == len(names)
     assert digest(a.T) == digest(np.zeros((3, 2), np.float32))
+
+
+def test_what_another_program_made_is_not_used(tmp_path: Path) -> None:
+    """The same version with other sources is another program."""
+    package = tmp_path / "lampblack"
+    shutil.copytree(Path(lampblack.__file__).parent, package, ignore=IGNORED)
+
+    def told() -> str:
+        command = [sys.executable, "-c", PRINT_DIGEST]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+        return done.stdout
+
+    same = told()
+    assert same == told() == program_digest() + "\n"
+    with (package / "surface" / "occlusions.py").open("a") as source:
+        source.write("\n")
+    assert told() != same

@@ -7,6 +7,7 @@ import hashlib
 import os
 import stat
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save
 
+from . import __version__
 from .atomic import atomic_file
 from .errors import OutputError
 
@@ -34,6 +36,14 @@ def digest(*parts: object) -> str:
             state.update(part if isinstance(part, bytes) else repr(part).encode())
         state.update(b"\0")
     return state.hexdigest()
+
+
+@cache
+def program_digest() -> str:
+    """A digest of this program: its version and its sources, which change more often. What another
+    program made of the same drawing is not used."""
+    sources = sorted(Path(__file__).parent.rglob("*.py"))
+    return digest(__version__, *(source.read_bytes() for source in sources))
 
 
 def user_cache_folder() -> Path:

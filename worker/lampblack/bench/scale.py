@@ -15,6 +15,7 @@ from PIL import Image
 
 from ..atomic import atomic_file
 from ..cache import ArrayCache
+from ..errors import LampblackError
 from ..finals.render_shot import render_shot
 from ..finals.resolve import resolve_job
 from ..finals.settings import RenderSettings
@@ -113,5 +114,6 @@ def _seconds(drawing: Image.Image, shot: _Shot) -> float:
             before = time.process_time() + processor_seconds(child.pid or 0)
             outcome = render_shot(job, pipeline)
             spent = time.process_time() + processor_seconds(child.pid or 0) - before
-        assert len(outcome.done) == shot.frames, outcome.failed
+        if outcome.failed:
+            raise LampblackError("A frame of the benchmark failed.", "Try: lampblack doctor")
     return spent

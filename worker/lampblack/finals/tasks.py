@@ -7,8 +7,7 @@ from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from .. import __version__
-from ..cache import digest
+from ..cache import digest, program_digest
 from ..choices import DeviceKind
 from ..errors import LampblackError, LampblackWarning, NothingDrawnError
 from ..normals.card import shipped_weights
@@ -125,7 +124,7 @@ class _Planner:
         )
         self._hints = HintLoader(job.shot, self._neighbours)
         self._pins = PinLoader(job.shot, self._neighbours)
-        self._made_by = digest(__version__, job.options, _weights())
+        self._made_by = digest(program_digest(), job.options, _weights())
         self._canvas: Canvas | None = None
         self._keyed = False
 

@@ -8,8 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import __version__
-from ..cache import digest
+from ..cache import digest, program_digest
 from ..choices import DEFAULT_GRIDS
 from .bend_strokes import BendStroke
 from .card import NetworkCard
@@ -40,7 +39,7 @@ class NormalPredictor:
             network, card = shipped_network()
         self._network = network
         self.card = card
-        self.identity: str = digest(__version__, card, network.identity)
+        self.identity: str = digest(program_digest(), card, network.identity)
 
     def predict(
         self,

@@ -27,8 +27,8 @@ SURE = {Repeats.ALONE: 0.43, Repeats.BESIDE: 0.57, Repeats.REPEATED: 0.7}
 """The least that it is sure on average over an occlusion: it half believes in marks, which repeat
 (chosen on validation views)."""
 STEP = 0.012
-"""Step across a stroke from which on it is an occlusion, as a share of the character's length; at
-lower ones, borders of colours are cut."""
+"""Step of the order across a stroke from which on it is an occlusion, as a share of the character's
+length; at lower ones, borders of colours are cut."""
 STEP_GOES_ON = 0.006
 """The same where an occlusion goes on."""
 SHORTEST = 0.03
