@@ -283,7 +283,8 @@ void ShotJob::deliverLayer()
             (keepsOthers && !mFrames.contains(frame) && QFileInfo::exists(framePath(frame))))
             pictures.insert(frame, framePath(frame));
     }
-    mLayer.deliver(isApart ? picturesApart(pictures) : QVector<LayerPictures>{{resultLayer(), pictures}},
+    const QVector<LayerPictures> whole{{resultLayer(), pictures}};
+    mLayer.deliver(isApart ? picturesApart(pictures) : whole,
                    mChoices.hidesSources && pictures.size() == count);
 }
 
