@@ -76,13 +76,13 @@ def character_planes(
         fine = np.concatenate([fine, fine[..., ::-1]])
         coarse = np.concatenate([coarse, flipped])
     vectors, auxiliary = network.predict_character(fine, coarse)
-    vectors = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
+    vectors /= np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
     edge = expit(auxiliary[:, 1:3].max(axis=1, keepdims=True))
     cells = np.concatenate([auxiliary[:, :1], edge], axis=1)
     if mirrored:
         back = vectors[1, :, :, ::-1].copy()
         back[0] *= -1
-        vectors = (vectors[:1] + back) / 2
+        vectors = np.divide(vectors[:1] + back, 2, dtype=np.float32)
         cells = (cells[:1] + cells[1:, :, :, ::-1]) / 2
     planes = np.concatenate([_channels_last(vectors), _spread(_channels_last(cells), small)], 2)
     return planes[canvas.inner], small[canvas.inner]

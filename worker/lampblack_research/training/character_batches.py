@@ -74,8 +74,8 @@ def place_on_canvas(
     box = _box(triple.mask)
     inside = triple.mask[box].astype(np.float32)
     planes = [triple.normals[box].astype(np.float32) / 127.0 * inside[..., None]]
-    pixels = triple.depth[box] / np.float32(DEPTH_STEPS)
-    drawings = triple.drawings[:, *box] / np.float32(255)
+    pixels = np.divide(triple.depth[box], DEPTH_STEPS, dtype=np.float32)
+    drawings = np.divide(triple.drawings[:, *box], 255, dtype=np.float32)
     marks = np.stack(
         [
             random_marks(pixels, inside > 0, rng)
