@@ -13,6 +13,7 @@ from ..choices import DEFAULT_GRIDS
 from .bend_strokes import BendStroke
 from .card import NetworkCard
 from .character import bounding_box, extend_outside
+from .follow_strokes import follow_strokes
 from .network import Network, shipped_network
 from .predict_character import mean_planes
 from .predict_tiles import MAX_GRIDS, tile_vectors
@@ -60,7 +61,7 @@ class NormalPredictor:
                 that many diagonally shifted grids of tiles. A network of tiles uses 5 for 0.
             quick: predict a whole character on the smallest canvas only.
             strokes: what the artist says of round and hollow parts, in pixels of ``mask``. A
-                network of tiles does not know them.
+                network of tiles is not told, but its normals follow them.
             progress: called with the share done, 0 to 1.
 
         Returns:
@@ -75,7 +76,9 @@ class NormalPredictor:
             raise ValueError(f"grids must be 0 to {MAX_GRIDS}, not {grids}")
         whole = self._network.whole
         if whole and grids:
-            return self._paper.predict(lines, mask, grids=grids, progress=progress)
+            return self._paper.predict(
+                lines, mask, grids=grids, strokes=strokes, progress=progress
+            )
         normals = np.zeros((*mask.shape, 3), np.float32)
         depth, edge = (np.zeros(mask.shape, np.float32) if whole else None for _ in range(2))
         if not mask.any():
@@ -105,7 +108,9 @@ class NormalPredictor:
         vectors, inside = planes[..., :3], mask[box]
         vectors[..., 2] = np.maximum(vectors[..., 2], 1e-3)  # what is seen cannot face away
         vectors /= np.linalg.norm(vectors, axis=2, keepdims=True)
-        normals[box] = vectors * inside[..., None]
+        vectors *= inside[..., None]
+        follow_strokes(vectors, inside, [s.moved(-box[1].start, -box[0].start) for s in strokes])
+        normals[box] = vectors
         if depth is not None and edge is not None:
             depth[box] = planes[..., 3] * max(character_mask.shape) * inside
             edge[box] = planes[..., 4] * inside

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from lampblack.normals.follow_strokes import divergence
+
 RIM_SHARE = 0.006
 """Width of the rim as a share of the character's size: 3 pixels of 512."""
 
@@ -114,11 +116,7 @@ def bend(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.fl
     the surface is round, below 0 where it is hollow. 0 outside and at the border of ``mask``."""
     size = max(mask.shape)
     inner = ndimage.binary_erosion(mask, iterations=max(2, size // 100))
-    sigma = size / 128
-    share = ndimage.gaussian_filter(mask.astype(np.float32), sigma)[..., None]
-    smooth = ndimage.gaussian_filter(normals, (sigma, sigma, 0)) / np.maximum(share, 1e-3)
-    slopes = np.gradient(smooth[..., 0], axis=1) - np.gradient(smooth[..., 1], axis=0)
-    return np.asarray(size * slopes * inner, np.float32)
+    return np.asarray(size * divergence(normals, mask, size / 128) * inner, np.float32)
 
 
 def _same_curvature(
