@@ -39,10 +39,11 @@ class Canvas:
         self._window, self.zoom = window, zoom
 
     @property
-    def middle(self) -> tuple[float, float]:
-        """On the screen, as it is now: panels that open move it."""
+    def middle(self) -> tuple[int, int]:
+        """On the screen, as it is now: panels that open move it. Pencil2D draws pixels of a canvas
+        that is an odd number wide half a pixel further right."""
         left, top, width, height = self._window.rect("ScribbleArea")
-        return left + width / 2, top + height / 2
+        return left + (width + 1) // 2, top + (height + 1) // 2
 
     def screen(self, x: float, y: float) -> tuple[float, float]:
         """Of a canvas pixel."""
