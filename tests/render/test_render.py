@@ -118,9 +118,10 @@ def test_lights_traced_as_one_are_the_sum_of_all(
     assert found.mixture is not None
     row, column = np.mgrid[:64, :64] + 0.5
     inside = np.hypot(row - 30, column - 32) < 22
-    for part in ("diffuse", "glossy"):
+    # The mean of highlights has more noise, of either way.
+    for part, apart_by in {"diffuse": 0.002, "glossy": 0.005}.items():
         one, other = (getattr(light, part)[inside] for light in (found.mixture, expected))
-        assert one.mean(axis=0) == pytest.approx(other.mean(axis=0), rel=0.002)
+        assert one.mean(axis=0) == pytest.approx(other.mean(axis=0), rel=apart_by)
         assert np.sqrt(((one - other) ** 2).mean()) < 0.01 * other.max()
     one, other = (light.floor / light.open_floor for light in (found.mixture, expected))
     assert np.sqrt(((one - other) ** 2).mean()) < 0.02

@@ -108,7 +108,9 @@ def test_a_child_that_is_stopped_is_replaced_and_leaves_nothing(
 
 HUNG = """
 import ctypes, pathlib
-from lampblack.render import child, trace
+from lampblack.render import child
+child.private_stdout()
+from lampblack.render import trace
 render_passes, hung = trace.render_passes, pathlib.Path({hung!r})
 def hang_once(scene):
     if not hung.exists():

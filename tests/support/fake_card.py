@@ -12,7 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from lampblack.render import cards, child, denoise, stage, survey, trace, trial
+from lampblack.render import child
+
+if __name__ == "__main__" and len(sys.argv) > 3:  # with a DEVICE: the child
+    child.private_stdout()  # Blender may print when it is imported
+
+from lampblack.render import cards, denoise, stage, survey, trace, trial
 from lampblack.render.device import Card
 from lampblack.render.passes import LightPasses
 

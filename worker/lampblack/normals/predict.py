@@ -76,9 +76,7 @@ class NormalPredictor:
             raise ValueError(f"grids must be 0 to {MAX_GRIDS}, not {grids}")
         whole = self._network.whole
         if whole and grids:
-            return self._paper.predict(
-                lines, mask, grids=grids, strokes=strokes, progress=progress
-            )
+            return self._paper.predict(lines, mask, grids=grids, strokes=strokes, progress=progress)
         normals = np.zeros((*mask.shape, 3), np.float32)
         depth, edge = (np.zeros(mask.shape, np.float32) if whole else None for _ in range(2))
         if not mask.any():

@@ -15,6 +15,7 @@ import sys
 import threading
 import traceback
 from collections.abc import Iterator
+from functools import cache
 from io import FileIO
 from pathlib import Path
 from typing import NoReturn, cast
@@ -43,7 +44,7 @@ Received = tuple[Message, list[Array]]
 def main() -> NoReturn:
     """Serve requests until the parent ends."""
     _end_with_parent()
-    answers = _private_stdout()
+    answers = private_stdout()
     inbox: queue.SimpleQueue[Received] = queue.SimpleQueue()
     threading.Thread(target=_read_requests, args=(inbox,), daemon=True).start()
 
@@ -80,6 +81,17 @@ def main() -> NoReturn:
             send(answers, Failed(str(error), traceback.format_exc()))
 
 
+@cache
+def private_stdout() -> FileIO:
+    """The stream of the answers, on the original stdout. Descriptor 1, to which Blender prints from
+    its import on, is redirected."""
+    answers = FileIO(os.dup(1), "wb")
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, 1)
+    os.close(silence)
+    return answers
+
+
 def _end_with_parent() -> None:
     """Let the kernel end this process with its parent. The end of the requests says it too, but not
     to a process that is stopped."""
@@ -90,16 +102,6 @@ def _end_with_parent() -> None:
 def _threes(arrays: list[Array]) -> Iterator[list[Array]]:
     """Vertices, faces and radiance of each emitter."""
     return (arrays[first : first + 3] for first in range(0, len(arrays), 3))
-
-
-def _private_stdout() -> FileIO:
-    """A stream for the answers on the original stdout; descriptor 1, to which Blender prints, is
-    redirected."""
-    answers = FileIO(os.dup(1), "wb")
-    silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, 1)
-    os.close(silence)
-    return answers
 
 
 def _read_requests(inbox: queue.SimpleQueue[Received]) -> None:
