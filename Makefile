@@ -65,15 +65,16 @@ test-python: build-dev
 test-newest:
 	NEWEST=1 $(MAKE) test VENV=build/newest
 
-# The plugin in the Pencil2D of this Debian; in that of Debian 13, and of Debian unstable (as root).
+# The plugin in the Pencil2D of this Debian; in that of Debian 13, and of Debian unstable (as root), where
+# numpy's types are stricter, too.
 # WINDOW_TESTS=tests/window/test_pencil2d_layer.py for some.
 test-window: test-environment
 	cmake --preset dev >/dev/null && cmake --build --preset dev --target $(IN_PENCIL2D)
 	ctest --preset dev -R '^host_'
-	$(BIN)/pytest $(WINDOW_TESTS)
+	$(BIN)/pytest -n 2 --dist loadgroup --no-loadscope-reorder $(WINDOW_TESTS)
 
 test-trixie test-sid: test-%:
-	scripts/debian_root.sh $* make test-window
+	scripts/debian_root.sh $* make test-window check-types
 
 test-slow: test
 	$(BIN)/pytest -m slow
