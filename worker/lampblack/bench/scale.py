@@ -1,9 +1,11 @@
-"""How the cost of a shot grows: with its frames, its drawings, their size, and the lights."""
+"""How the cost of a shot grows: with its frames, its drawings, their size, and the lights; and that
+its memory does not grow."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
 from pathlib import Path
@@ -15,13 +17,16 @@ from PIL import Image
 
 from ..atomic import atomic_file
 from ..cache import ArrayCache
+from ..choices import QualityName
 from ..errors import LampblackError
-from ..finals.render_shot import render_shot
-from ..finals.resolve import resolve_job
+from ..finals.render_shot import RenderListener, render_shot
+from ..finals.resolve import ResolvedJob, resolve_job
 from ..finals.settings import RenderSettings
 from ..pipeline import Pipeline
 from ..render.client import RenderChild
 from ..scene import Scene, default_light, default_scene, encode_scene
+from ..service.memory import resident_bytes
+from ..shot import ShotFrame
 from .memory import processor_seconds
 
 STEPS: Mapping[str, Sequence[int]] = {
@@ -34,6 +39,9 @@ STEPS: Mapping[str, Sequence[int]] = {
 canvas, lights."""
 SMALL, USUAL = 256, 512
 """Side of the canvas where frames grow, and where lights do."""
+MANY = 500
+"""Distinct drawings over which memory is watched, and how often."""
+EVERY = 20
 
 
 @dataclass(frozen=True)
@@ -44,6 +52,7 @@ class _Shot:
     drawings: int = 1
     side: int = SMALL
     lights: int = 1
+    quality: QualityName = "final"
 
     def scene(self) -> Scene:
         """Lights on a circle, all of them as strong as one."""
@@ -61,7 +70,8 @@ def bench_scale(
     picture: NDArray[np.uint8], progress: Callable[[float], None] = lambda share: None
 ) -> dict[str, float]:
     """Processor seconds of shots at final quality, nothing cached, network and renderer loaded.
-    They tell growth better than wall seconds, which other programs change.
+    They tell growth better than wall seconds, which other programs change. And the memory in use
+    while a long shot of small drawings is lit at low quality.
 
     Args:
         picture: (H, W, 4) uint8, the drawing; others are made from it by turning it.
@@ -69,6 +79,7 @@ def bench_scale(
     Returns:
         ``WHAT_N``: the seconds where ``WHAT`` of ``STEPS`` is N. ``WHAT_exponent``: the power of N
         with which they grow, the slope between the last two steps on logarithmic axes.
+        ``memory_N``: MiB of all processes after N distinct drawings.
     """
     shots = {
         "held_frames": lambda n: _Shot(frames=n),
@@ -76,27 +87,63 @@ def bench_scale(
         "pixels": lambda n: _Shot(side=n),
         "lights": lambda n: _Shot(side=USUAL, lights=n),
     }
+    drawing = Image.fromarray(picture)
     figures: dict[str, float] = {}
-    total, done = sum(len(steps) for steps in STEPS.values()), 0
+    total, done = sum(len(steps) for steps in STEPS.values()) + MANY / EVERY, 0
     for what, steps in STEPS.items():
         spent = []
         for step in steps:
-            spent.append(_seconds(Image.fromarray(picture), shots[what](step)))
+            spent.append(_seconds(drawing, shots[what](step)))
             figures[f"{what}_{step}"] = spent[-1]
             done += 1
             progress(done / total)
         growth = np.log(spent[-1] / spent[-2]) / np.log(steps[-1] / steps[-2])
         figures[f"{what}_exponent"] = float(growth)
-    return figures
+    many = _Shot(MANY, MANY, SMALL // 2, quality="low")
+    return figures | _memory(drawing, many, lambda n: progress((done + n / EVERY) / total))
 
 
 def _seconds(drawing: Image.Image, shot: _Shot) -> float:
+    with _prepared(drawing, shot) as (job, pipeline, child):
+        before = time.process_time() + processor_seconds(child.pid or 0)
+        _light(job, pipeline)
+        return time.process_time() + processor_seconds(child.pid or 0) - before
+
+
+def _memory(drawing: Image.Image, shot: _Shot, progress: Callable[[int], None]) -> dict[str, float]:
+    figures: dict[str, float] = {}
+
+    class Watch(RenderListener):
+        lit = 0
+
+        def on_frame(self, frame: ShotFrame, error: LampblackError | None, *, kept: bool) -> None:
+            self.lit += 1
+            if self.lit % EVERY == 0:
+                figures[f"memory_{self.lit}"] = resident_bytes([child.pid]) / 2**20
+                progress(self.lit)
+
+    with _prepared(drawing, shot) as (job, pipeline, child):
+        _light(job, pipeline, Watch())
+    return figures
+
+
+def _light(job: ResolvedJob, pipeline: Pipeline, listener: RenderListener | None = None) -> None:
+    if render_shot(job, pipeline, listener=listener).failed:
+        raise LampblackError("A frame of the benchmark failed.", "Try: lampblack doctor")
+
+
+@contextmanager
+def _prepared(
+    drawing: Image.Image, shot: _Shot
+) -> Iterator[tuple[ResolvedJob, Pipeline, RenderChild]]:
+    """The shot as files, with nothing cached, and network and renderer loaded."""
     with TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "drawn").mkdir()
         square = drawing.resize((shot.side, shot.side), Image.Resampling.LANCZOS)
+        turn = min(3, 350 / shot.drawings)
         for frame in range(shot.frames):
-            turned = square.rotate(3 * (frame % shot.drawings), Image.Resampling.BICUBIC)
+            turned = square.rotate(turn * (frame % shot.drawings), Image.Resampling.BICUBIC)
             turned.save(folder / "drawn" / f"{frame:04}.png")
         with atomic_file(folder / "scene.json") as file:
             file.write(encode_scene(shot.scene()))
@@ -105,15 +152,10 @@ def _seconds(drawing: Image.Image, shot: _Shot) -> float:
                 inputs=(str(folder / "drawn"),),
                 output=str(folder / "lit"),
                 scene=str(folder / "scene.json"),
-                quality="final",
+                quality=shot.quality,
             )
         )
         child = RenderChild()
         with Pipeline(ArrayCache(folder / "cache"), job.options, renderer=child) as pipeline:
             pipeline.warm_up()
-            before = time.process_time() + processor_seconds(child.pid or 0)
-            outcome = render_shot(job, pipeline)
-            spent = time.process_time() + processor_seconds(child.pid or 0) - before
-        if outcome.failed:
-            raise LampblackError("A frame of the benchmark failed.", "Try: lampblack doctor")
-    return spent
+            yield job, pipeline, child
