@@ -97,6 +97,10 @@ def light_in_own_window(window: OwnWindow) -> None:
 
 
 def try_package(package: Path, wheels: Path | None, folder: Path) -> None:
+    told = ["dpkg-deb", "--field", package, "Depends"]
+    depends = subprocess.run(told, check=True, capture_output=True, text=True).stdout
+    satisfy = ["apt-get", "satisfy", "--yes", "--no-install-recommends", depends.strip()]
+    subprocess.run(satisfy, check=True)
     before = system_files()
     subprocess.run(["dpkg", "-i", package], check=True)
     display = Display(folder)
