@@ -86,8 +86,10 @@ def test_opacity_of_a_keyframe_counts(tmp_path: Path) -> None:
     assert shot.cel(shot.frames[0]).pixels[..., 3].max() == round(255 * 0.25)
 
 
-@pytest.mark.parametrize(("version", "frames"), [("0.6.6", [1, 2, 3]), ("0.7.0", [1, 3])])
-def test_a_key_that_names_no_file_is_blank_until_07_and_none_since(
+@pytest.mark.parametrize(
+    ("version", "frames"), [("0.6.6", [1, 2, 3]), ("0.7.0", [1, 3]), ("0.7.2", [1, 2, 3])]
+)
+def test_a_key_that_names_no_file_is_blank_but_none_in_070(
     tmp_path: Path, version: str, frames: list[int]
 ) -> None:
     keys = [image(1, "ball.png"), 'frame="2"', image(3, "ball.png")]

@@ -30,7 +30,7 @@ LONGEST = 100_000
 DEFAULT_CAMERA = Camera("Camera Layer", 800, 600, (CameraKey(1),))
 """What Pencil2D adds to a project of its early versions, which has none."""
 
-
+Version = tuple[int, int, int]
 SUFFIXES = (*PENCIL2D, ORA, KRA, *PSD)
 """Of all files that are read as projects."""
 
@@ -75,10 +75,10 @@ def parse(xml: bytes, name: str) -> Project:
     if len(described) > MAX_LAYERS:
         raise ProjectError(f"{name} has more than {MAX_LAYERS} layers.", "Merge some of them.")
     moving = [element for element in described if element.get("type") == CAMERA]
-    is_new = _is_new(root, moving)
+    version = _version(root, moving)
     drawn = [element for element in described if element.get("type") in KINDS]
-    layers = tuple(_layer(element, KINDS[element.attrib["type"]], is_new) for element in drawn)
-    between: Between = "parameters" if is_new else "matrices"
+    layers = tuple(_layer(element, KINDS[element.attrib["type"]], version) for element in drawn)
+    between: Between = "parameters" if version >= (0, 7) else "matrices"
     cameras = tuple(_camera(element, between) for element in moving) or (DEFAULT_CAMERA,)
     keyed: list[tuple[Key, ...] | tuple[CameraKey, ...]] = [thing.keys for thing in layers]
     keyed += [camera.keys for camera in cameras]
@@ -91,13 +91,13 @@ def parse(xml: bytes, name: str) -> Project:
     return Project(layers, cameras, length, whole(root.find("projectdata/fps"), "value", 12))
 
 
-def _layer(element: Element, kind: Kind, is_new: bool) -> Layer:
+def _layer(element: Element, kind: Kind, version: Version) -> Layer:
     name = _name(element)
     keys: dict[int, Key] = {}
     for image in _bounded(element.findall("image"), name):
         inline = kind == "vector" and image.get("src") is None
-        if is_new and not inline and not image.get("src"):
-            continue  # a blank key before Pencil2D 0.7, and no key since
+        if (0, 7) <= version < (0, 7, 2) and not inline and not image.get("src"):
+            continue  # no key there; a blank key before and since
         key = Key(
             frame=_frame(image, name),
             file=image.get("src", ""),
@@ -113,16 +113,17 @@ def _layer(element: Element, kind: Kind, is_new: bool) -> Layer:
     )
 
 
-def _is_new(root: Element, cameras: list[Element]) -> bool:
-    """Whether the project is of Pencil2D 0.7 or later. Debian's 0.7.0 calls itself 0.0.0.0, but
-    its cameras have attributes that earlier ones do not."""
-    version = re.match(r"v?(\d{1,3})\.(\d{1,3})", (root.findtext("version") or "").strip())
-    if version is not None and (int(version[1]), int(version[2])) >= (0, 7):
-        return True
+def _version(root: Element, cameras: list[Element]) -> Version:
+    """The version of Pencil2D that the project is of. Debian's 0.7.0 calls itself 0.0.0.0, but its
+    cameras have attributes that earlier ones do not."""
+    text = (root.findtext("version") or "").strip()
+    told = re.match(r"v?(\d{1,3})\.(\d{1,3})(?:\.(\d{1,3}))?", text)
+    version = (int(told[1]), int(told[2]), int(told[3] or 0)) if told else (0, 0, 0)
     keys = [key for camera in cameras for key in camera.findall("camera")]
-    return any("showPath" in camera.attrib for camera in cameras) or any(
+    is_new = any("showPath" in camera.attrib for camera in cameras) or any(
         {"easing", "pathCPX", "pathCPY"} & set(key.attrib) for key in keys
     )
+    return max(version, (0, 7, 0)) if is_new else version
 
 
 def _camera(element: Element, between: Between) -> Camera:
